@@ -1,0 +1,251 @@
+"""The arrays between model and results: plain data, no kernels, no files.
+
+A `System` is one model with numbered freedoms, a `Loads` the loads of one case on it, a
+`CaseResult` the answer.  Freedom order at a node: ux uy uz rx ry rz, global.  An element is
+described at its second end ("tip"), fixed at the first: six deformations and six forces.
+"""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+F8 = NDArray[np.float64]
+I4 = NDArray[np.int32]
+B1 = NDArray[np.bool_]
+
+STRAIGHT, ARC, SPRING = 0, 1, 2  # System.kind
+
+
+@dataclass(frozen=True, slots=True)
+class Contacts:
+    """One item a direction word: a normal (or a plane of two normals) with two sides.
+
+    node, cnode : (n,) node numbers; cnode is -1 where the support stands on ground.
+    card : (n,) index of the support card.
+    rotational : (n,) the contact holds a rotation, its reaction is a moment.
+    dim : (n,) 1, or 2 for a guide on a vertical pipe (radial contact in a plane).
+    normal : (n, 2, 3) unit normals; the second is zero when dim is 1.
+    gap : (n, 2) clearance to the minus and the plus side [m, rad]; inf where that side is
+        free; both equal (radial) when dim is 2.
+    k : (n,) stiffness [N/m, N m/rad].
+    penalty : (n,) k stands for a rigid support (not the user's own K=).
+    two_way : (n,) always closed: both gaps zero.
+    word : direction words, for reports.
+    """
+
+    node: I4
+    cnode: I4
+    card: I4
+    rotational: B1
+    dim: I4
+    normal: F8
+    gap: F8
+    k: F8
+    penalty: B1
+    two_way: B1
+    word: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Sliders:
+    """One item a friction element: Coulomb sliding in a fixed line or plane.
+
+    basis : (n, 2, 3) orthonormal directions of sliding; the second is zero on a line.
+    mu, kf : (n,) coefficient, elastic stick stiffness [N/m].
+    first, contact : the contacts of slider i are contact[first[i]:first[i+1]]; its normal
+        force is |sum of their reactions as vectors|.
+    """
+
+    node: I4
+    cnode: I4
+    card: I4
+    basis: F8
+    mu: F8
+    kf: F8
+    first: I4
+    contact: I4
+
+
+@dataclass(frozen=True, slots=True)
+class Card:
+    """One support of the JSON and of the restraint table: a card of the deck."""
+
+    label: str  # node
+    cnode: str | None
+    name: str  # e.g. "20 +Y GUIDE"
+    kind: str  # anchor, support, hanger, spring, displacement
+    line: int
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """Names of one element: labels of its ends, type and the section and material used."""
+
+    start: str
+    end: str
+    type: str  # pipe, bend, rigid, spring
+    section: str | None
+    material: str | None
+    line: int
+
+
+@dataclass(frozen=True, slots=True)
+class System:
+    """A numbered model.
+
+    labels : node labels; `alias` maps further labels (30 -> 30F) to node numbers.
+    xyz : (n_node, 3) [m].
+    ends : (n_elem, 2) node numbers.
+    kind : (n_elem,) STRAIGHT, ARC or SPRING.
+    axes : (n_elem, 3, 3) rows ex ey ez; ex along the pipe at the first end; on an arc ey
+        points to its centre.  Springs: the axes of their six stiffnesses.
+    length : (n_elem,) along the axis [m]; 0 for springs.
+    radius, angle : (n_elem,) of an arc [m, rad]; 0 elsewhere.
+    rigidity : (n_elem, 4) EA [N], GJ, EI [N m2], GAs [N]; GAs = 0 is rigid in shear.
+    flex : (n_elem,) factor on the bending flexibility (k of a bend), 1 on straights.
+    spring : (n_elem, 6) stiffnesses of springs, at mid-distance in `axes`; 0 elsewhere.
+    od, wall : (n_elem,) pipe for stresses [m]; 0 for springs.
+    up : unit vector against gravity.
+    """
+
+    labels: tuple[str, ...]
+    alias: dict[str, int]
+    xyz: F8
+    ends: I4
+    kind: I4
+    axes: F8
+    length: F8
+    radius: F8
+    angle: F8
+    rigidity: F8
+    flex: F8
+    spring: F8
+    od: F8
+    wall: F8
+    parts: tuple[Part, ...]
+    contacts: Contacts
+    sliders: Sliders
+    cards: tuple[Card, ...]
+    up: F8
+
+
+@dataclass(frozen=True, slots=True)
+class Loads:
+    """Loads of one case (or of a fraction of it).
+
+    dist : (n_elem, 3) uniform load per length of axis, global [N/m].
+    strain : (n_elem,) free axial strain (thermal and pressure).
+    curvature : (n_elem,) free change of angle per length of an arc (opening < 0) [rad/m].
+    nodal : (n_node, 6) [N, N m].
+    base : (n_card, 6) imposed displacement of the supports' bases [m, rad].
+    preload : (n_card,) cold load of hangers when H acts, along `up` on the pipe [N].
+    pressure : (n_elem,) for stresses [Pa].
+    mux : factor on every mu.
+    thermal_only : nothing but strains and base movements acts.
+    """
+
+    dist: F8
+    strain: F8
+    curvature: F8
+    nodal: F8
+    base: F8
+    preload: F8
+    pressure: F8
+    mux: float = 1.0
+
+
+OPEN, MINUS, PLUS, BOTH = 0, -1, 1, 2  # contact side; BOTH: two-way or radial
+ENGAGED, STICK, SLIP = 1, 2, 3  # slider state; OPEN = 0; ENGAGED: no friction
+
+
+@dataclass(slots=True)
+class State:
+    """The numbers of one solved case.  Displacements are u + u_low (unevaluated sum).
+
+    u, u_low : (n_node, 6) [m, rad].
+    end_force : (n_elem, 2, 6) force and moment *on the element* at its ends, global.
+    side : (n_contact,) OPEN, MINUS, PLUS or BOTH.
+    reaction : (n_contact, 3) force (moment) on the pipe [N, N m], global.
+    friction : (n_slider, 3) friction force on the pipe [N].
+    mode : (n_slider,) OPEN, STICK or SLIP.
+    normal : (n_slider,) N >= 0 [N].
+    slide : (n_slider, 3) elastic and plastic travel u_t - d_t since the step's committed
+        datum [m] (what decides stick or slip).
+    datum : (n_slider, 3) committed at the start of the last step [m].
+    datum_end : (n_slider, 3) committed at the end of the case, for FROM [m].
+    """
+
+    u: F8
+    u_low: F8
+    end_force: F8
+    side: I4
+    reaction: F8
+    friction: F8
+    mode: I4
+    normal: F8
+    slide: F8
+    datum: F8
+    datum_end: F8
+
+
+@dataclass(frozen=True, slots=True)
+class Item:
+    """One line of a certificate: the value, its limit and where it is worst."""
+
+    name: str
+    value: float
+    where: str
+
+
+@dataclass(frozen=True, slots=True)
+class Certificate:
+    """What can be checked from the printed numbers; `worst` is the largest item."""
+
+    passed: bool
+    worst: float
+    where: str
+    items: tuple[Item, ...]
+    inherited: bool = False
+
+
+@dataclass(slots=True)
+class CaseResult:
+    """One case or combination.
+
+    `state` is None when the case did not converge; `cause` then says why.  `history` has one
+    record an iteration; `work` counts analyse, factorise, solve, refine, elements, iterations.
+    `penalty_u` (n_node, 6) and `penalty_r` (n_contact, 3) are the first-order corrections to
+    rigid supports; `penalty_effect` their largest relative size.
+    """
+
+    name: str
+    kind: str  # case or comb
+    text: str  # "W + P1 + T1"
+    system: System
+    loads: Loads | None
+    state: State | None
+    converged: bool
+    cause: str | None = None
+    certificate: Certificate | None = None
+    penalty_effect: dict[str, float] = field(default_factory=dict)
+    penalty_u: F8 | None = None
+    penalty_r: F8 | None = None
+    frozen: tuple[str, ...] = ()
+    warnings: tuple[str, ...] = ()
+    history: list[dict[str, object]] = field(default_factory=list)
+    work: dict[str, int] = field(default_factory=dict)
+
+
+@dataclass(slots=True)
+class Results:
+    """All cases of one run, in the deck's order."""
+
+    title: str
+    cases: dict[str, CaseResult]
+    warnings: tuple[str, ...] = ()
+    work: dict[str, int] = field(default_factory=dict)
+
+    def __getitem__(self, name: str) -> CaseResult:
+        """Return the case called `name`."""
+        return self.cases[name]

@@ -1,0 +1,294 @@
+"""What a user describes: frozen records of one piping system, in SI, with labels and no arrays.
+
+Every length is in m, force in N, mass in kg, temperature in degrees Celsius (differences in K),
+stress and pressure in Pa.  `Place` says which line of which deck a record came from.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+SETS = tuple("123456789")
+INFINITE = float("inf")
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """Where a record was written: deck file and line, or the call of the Python API."""
+
+    file: str = "<python>"
+    line: int = 0
+
+    def __str__(self) -> str:
+        return f"{self.file}:{self.line}"
+
+
+@dataclass(frozen=True, slots=True)
+class Settings:
+    """Choices that hold for the whole model (the DEFAULT card)."""
+
+    mu: float = 0.0
+    k: float = 1e12  # translational penalty k_p [N/m]
+    kr: float = 1e12  # rotational penalty [N m/rad]
+    kf: float = 1e8  # elastic stick stiffness k_f [N/m]
+    shear: bool = True
+    up: str = "Y"
+    g: float = 9.80665
+    stiffen: str = "OFF"  # pressure of the bend stiffening: OFF, MAX, P1 ... P9
+    bourdon: str = "OFF"  # OFF, ELONGATION (closed-end strain), OPENING (and bends open)
+    friction: str = "CONTACT"  # or RESULTANT
+    iteration: str = "NEWTON"  # or STATUS
+    events: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class TablePoint:
+    """Properties of a material at one temperature; None where the table is silent."""
+
+    t: float
+    e: float | None = None
+    alpha: float | None = None  # mean coefficient from TREF of the table to t [1/K]
+
+
+@dataclass(frozen=True, slots=True)
+class Material:
+    """Elastic constants, density and expansion; `table` is sorted by temperature."""
+
+    name: str
+    e: float
+    nu: float = 0.3
+    alpha: float = 0.0
+    density: float = 0.0
+    grade: str | None = None  # row of the library of materials it was taken from
+    table: tuple[TablePoint, ...] = ()
+    table_tref: float = 20.0  # the temperature from which the table's mean alpha counts
+    place: Place = Place()
+
+
+@dataclass(frozen=True, slots=True)
+class Section:
+    """Pipe cross section with its contents and coverings; thicknesses in m, densities kg/m3."""
+
+    name: str
+    od: float
+    wall: float
+    fluid: float = 0.0
+    lining: float = 0.0
+    lining_density: float = 0.0
+    insulation: float = 0.0
+    insulation_density: float = 0.0
+    weight: float = 0.0  # extra uniform weight [N/m], part of W and WNC and WW
+    corrosion: float = 0.0  # kept for code checks; not used for stiffness
+    nps: str | None = None
+    schedule: str | None = None
+    place: Place = Place()
+
+
+@dataclass(frozen=True, slots=True)
+class Operation:
+    """Temperatures and pressures by set number ("1" ... "9"), carried over until changed."""
+
+    t: Mapping[str, float] = field(default_factory=dict)
+    p: Mapping[str, float] = field(default_factory=dict)
+    tref: float = 20.0
+
+
+@dataclass(frozen=True, slots=True)
+class Node:
+    """A node whose coordinates the user gave."""
+
+    label: str
+    xyz: tuple[float, float, float]
+    place: Place = Place()
+
+
+@dataclass(frozen=True, slots=True)
+class Pipe:
+    """A straight run between two labels; `rigid` is a stiff body with its own weight.
+
+    `delta` runs between tangent intersections where a bend stands at an end; None when both
+    ends have coordinates already.
+    """
+
+    start: str
+    end: str
+    delta: tuple[float, float, float] | None
+    section: str
+    material: str
+    operation: Operation = Operation()
+    rigid: bool = False
+    weight: float = 0.0  # of the rigid body, all of it [N]
+    place: Place = Place()
+
+
+@dataclass(frozen=True, slots=True)
+class Bend:
+    """A bend at the tangent intersection `node`; radius None means 1.5 nominal diameters."""
+
+    node: str
+    radius: float | None = None
+    k: float | None = None  # flexibility factor; None: 1.65/h
+    flanges: int = 0
+    place: Place = Place()
+
+
+@dataclass(frozen=True, slots=True)
+class Spring:
+    """A two-node spring: stiffness kx ky kz [N/m], krx kry krz [N m/rad] in its own axes."""
+
+    start: str
+    end: str
+    k: tuple[float, float, float, float, float, float]
+    axis: tuple[float, float, float] | None = None  # direction of the local x; None: global axes
+    place: Place = Place()
+
+
+@dataclass(frozen=True, slots=True)
+class Mass:
+    """A concentrated mass [kg] at a node."""
+
+    node: str
+    mass: float
+    place: Place = Place()
+
+
+@dataclass(frozen=True, slots=True)
+class Direction:
+    """One direction word of a support with its keys.
+
+    `word` is X Y Z +X -X ... RX +RX ... GUIDE LIMIT, or "(a,b,c)" "+(a,b,c)" with `vector`.
+    A None gap is 0; None for k, kf, mu is the model's default (mu 0 on rotations, anchors).
+    """
+
+    word: str
+    vector: tuple[float, float, float] | None = None
+    gap: tuple[float, float] = (0.0, 0.0)  # minus, plus [m or rad]
+    k: float | None = None
+    kf: float | None = None
+    mu: float | None = None
+    along: str | None = None  # the pipe "30-40" that GUIDE and LIMIT follow
+    friction: str | None = None  # card-wide: CONTACT or RESULTANT
+
+
+@dataclass(frozen=True, slots=True)
+class Support:
+    """One ANCHOR, SUPPORT, HANGER or one-node SPRING card.
+
+    `kind` is "anchor", "support", "hanger" or "spring".  An anchor holds its six freedoms with
+    `k` and `kr`; a hanger is vertical with rate `k` and cold load `load`; a spring has `ks`.
+    """
+
+    node: str
+    kind: str
+    directions: tuple[Direction, ...] = ()
+    cnode: str | None = None
+    name: str | None = None
+    k: float | None = None
+    kr: float | None = None
+    load: float = 0.0  # cold load of a hanger, upward on the pipe [N]
+    ks: tuple[float, float, float, float, float, float] | None = None
+    axis: tuple[float, float, float] | None = None  # local x of a spring's ks
+    place: Place = Place()
+
+
+@dataclass(frozen=True, slots=True)
+class Displacement:
+    """Imposed displacement set Dn at a node; None components are not given (free).
+
+    Where a support or anchor stands at the node it moves that support's base; where none
+    stands it holds the node itself in the given components.
+    """
+
+    node: str
+    set: str  # "1" ... "9"
+    d: tuple[float | None, ...]  # six components [m, rad]
+    place: Place = Place()
+
+
+@dataclass(frozen=True, slots=True)
+class Force:
+    """Nodal force and moment of set Fn."""
+
+    node: str
+    set: str
+    f: tuple[float, float, float, float, float, float]
+    place: Place = Place()
+
+
+@dataclass(frozen=True, slots=True)
+class Acceleration:
+    """Uniform acceleration of set Un, in g, as a load in the direction given."""
+
+    set: str
+    a: tuple[float, float, float]
+    place: Place = Place()
+
+
+@dataclass(frozen=True, slots=True)
+class Term:
+    """One load set of a case with its factor: W WNC WW H T1 P1 D1 F1 U1, or U with `vector`."""
+
+    factor: float
+    name: str
+    vector: tuple[float, float, float] | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """A load case: a sum of load sets, solved."""
+
+    name: str
+    terms: tuple[Term, ...]
+    start: str | None = None  # FROM=
+    steps: int = 1
+    mux: float = 1.0
+    hot: bool = False  # E=HOT
+    events: bool | None = None
+    iteration: str | None = None
+    snubbers: str | None = None
+    place: Place = Place()
+
+
+# An expression of case names: ("case", name) ("num", x) ("+", a, b) ("-", a, b) ("*", n, a)
+# ("neg", a) ("abs", a)
+Expression = tuple[object, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Comb:
+    """A combination of the results of cases."""
+
+    name: str
+    expression: Expression
+    text: str
+    place: Place = Place()
+
+
+@dataclass(frozen=True, slots=True)
+class Units:
+    """The deck's own units, for echo and the text report; names as on the UNITS card."""
+
+    length: str = "m"
+    force: str = "N"
+    pressure: str = "Pa"
+    temperature: str = "C"
+
+
+@dataclass(slots=True)
+class Model:
+    """A piping system: everything a deck can say, in the deck's order."""
+
+    title: str = ""
+    units: Units = field(default_factory=Units)
+    settings: Settings = field(default_factory=Settings)
+    materials: dict[str, Material] = field(default_factory=dict)
+    sections: dict[str, Section] = field(default_factory=dict)
+    nodes: list[Node] = field(default_factory=list)
+    pipes: list[Pipe] = field(default_factory=list)
+    bends: list[Bend] = field(default_factory=list)
+    springs: list[Spring] = field(default_factory=list)
+    masses: list[Mass] = field(default_factory=list)
+    supports: list[Support] = field(default_factory=list)
+    displacements: list[Displacement] = field(default_factory=list)
+    forces: list[Force] = field(default_factory=list)
+    accelerations: list[Acceleration] = field(default_factory=list)
+    cases: list[Case | Comb] = field(default_factory=list)
