@@ -1,0 +1,62 @@
+# Each of these works on a fresh clone: what is missing is installed first (.ci/setup).
+#   make demo     solve two piping systems, reports in demo/
+#   make test     every test                        (make test ARGS="-k friction -x")
+#   make lint     ruff, mypy, fortitude
+#   make bench    the rack lines of benchmarks/     (make bench NODES="50 200" CASES=fric1)
+MAKEFLAGS += --no-print-directory
+BIN := .venv/bin
+READY := .venv/.ready
+
+# BLAS threads fight each other and change last digits.
+export OPENBLAS_NUM_THREADS := 1
+export OMP_NUM_THREADS := 1
+# Meson, when a changed meson.build makes it run again, looks for numpy-config on PATH.
+export PATH := $(CURDIR)/$(BIN):$(PATH)
+
+DEMO := b313_s302 hot_header
+NODES := 50 200 1000
+CASES := lin gap fric1 fric10
+ARGS :=
+
+.PHONY: demo test lint bench debug-test build clean
+
+demo: build
+	@mkdir -p demo
+	@set -e; for deck in $(DEMO); do $(BIN)/trunnion run models/$$deck.inp -o demo; done
+	@printf '\nThe reports to read, each ending with its certificate:\n'
+	@printf '  demo/%s.out\n' $(DEMO)
+	@printf 'The same numbers for programs, in SI units:\n'
+	@printf '  demo/%s.json\n' $(DEMO)
+
+test: build
+	@$(BIN)/pytest $(ARGS)
+
+lint: $(READY)
+	@$(BIN)/ruff check .
+	@$(BIN)/ruff format --check .
+	@$(BIN)/mypy
+	@$(BIN)/fortitude check fortran
+
+bench: build
+	@mkdir -p build/bench
+	@set -e; for n in $(NODES); do for case in $(CASES); do \
+	    $(BIN)/python benchmarks/rack.py benchmarks/models/rack_$$n.json $$case \
+	        -o build/bench/rack_$${n}_$$case.json; \
+	done; done
+
+# The debug build keeps its own directory; only what the Fortran tests need is built in it.
+debug-test: $(READY)
+	@test -f build/debug/build.ninja || $(BIN)/meson setup build/debug --buildtype=debug --werror \
+	    -Db_sanitize=address,undefined
+	@$(BIN)/meson test -C build/debug --print-errorlogs
+
+# The editable package would rebuild itself on import; here it is done once, before anything runs.
+build: $(READY)
+	@$(BIN)/ninja -C build/editable --quiet
+
+$(READY): pyproject.toml meson.build .ci/setup
+	@.ci/setup
+	@touch $@
+
+clean:
+	rm -rf .venv build demo
