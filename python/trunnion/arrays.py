@@ -107,6 +107,8 @@ class System:
     spring : (n_elem, 6) stiffnesses of springs, at mid-distance in `axes`; 0 elsewhere.
     od, wall : (n_elem,) pipe for stresses [m]; 0 for springs.
     up : unit vector against gravity.
+    source : (n_elem,) index of Model.pipes whose properties hold; -1 for springs.
+    mid : label of a bend's middle that is no node (30M) -> element whose middle it is.
     """
 
     labels: tuple[str, ...]
@@ -128,6 +130,8 @@ class System:
     sliders: Sliders
     cards: tuple[Card, ...]
     up: F8
+    source: I4
+    mid: dict[str, int]
 
 
 @dataclass(frozen=True, slots=True)
