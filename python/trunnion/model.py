@@ -61,7 +61,7 @@ class Material:
     grade: str | None = None  # row of the library of materials it was taken from
     table: tuple[TablePoint, ...] = ()
     table_tref: float = 20.0  # the temperature from which the table's mean alpha counts
-    place: Place = Place()
+    place: Place = field(default=Place(), compare=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,8 +79,9 @@ class Section:
     weight: float = 0.0  # extra uniform weight [N/m], part of W and WNC and WW
     corrosion: float = 0.0  # kept for code checks; not used for stiffness
     nps: str | None = None
+    dn: str | None = None
     schedule: str | None = None
-    place: Place = Place()
+    place: Place = field(default=Place(), compare=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,7 +99,7 @@ class Node:
 
     label: str
     xyz: tuple[float, float, float]
-    place: Place = Place()
+    place: Place = field(default=Place(), compare=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,18 +118,19 @@ class Pipe:
     operation: Operation = Operation()
     rigid: bool = False
     weight: float = 0.0  # of the rigid body, all of it [N]
-    place: Place = Place()
+    place: Place = field(default=Place(), compare=False)
 
 
 @dataclass(frozen=True, slots=True)
 class Bend:
-    """A bend at the tangent intersection `node`; radius None means 1.5 nominal diameters."""
+    """A bend at the tangent intersection `node`; radius None: `diameters` nominal diameters."""
 
     node: str
     radius: float | None = None
+    diameters: float = 1.5  # LONG 1.5, SHORT 1.0
     k: float | None = None  # flexibility factor; None: 1.65/h
     flanges: int = 0
-    place: Place = Place()
+    place: Place = field(default=Place(), compare=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -139,7 +141,7 @@ class Spring:
     end: str
     k: tuple[float, float, float, float, float, float]
     axis: tuple[float, float, float] | None = None  # direction of the local x; None: global axes
-    place: Place = Place()
+    place: Place = field(default=Place(), compare=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -148,7 +150,7 @@ class Mass:
 
     node: str
     mass: float
-    place: Place = Place()
+    place: Place = field(default=Place(), compare=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -187,7 +189,7 @@ class Support:
     load: float = 0.0  # cold load of a hanger, upward on the pipe [N]
     ks: tuple[float, float, float, float, float, float] | None = None
     axis: tuple[float, float, float] | None = None  # local x of a spring's ks
-    place: Place = Place()
+    place: Place = field(default=Place(), compare=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -201,7 +203,7 @@ class Displacement:
     node: str
     set: str  # "1" ... "9"
     d: tuple[float | None, ...]  # six components [m, rad]
-    place: Place = Place()
+    place: Place = field(default=Place(), compare=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -211,7 +213,7 @@ class Force:
     node: str
     set: str
     f: tuple[float, float, float, float, float, float]
-    place: Place = Place()
+    place: Place = field(default=Place(), compare=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -220,7 +222,7 @@ class Acceleration:
 
     set: str
     a: tuple[float, float, float]
-    place: Place = Place()
+    place: Place = field(default=Place(), compare=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -245,7 +247,7 @@ class Case:
     events: bool | None = None
     iteration: str | None = None
     snubbers: str | None = None
-    place: Place = Place()
+    place: Place = field(default=Place(), compare=False)
 
 
 # An expression of case names: ("case", name) ("num", x) ("+", a, b) ("-", a, b) ("*", n, a)
@@ -260,7 +262,7 @@ class Comb:
     name: str
     expression: Expression
     text: str
-    place: Place = Place()
+    place: Place = field(default=Place(), compare=False)
 
 
 @dataclass(frozen=True, slots=True)
