@@ -16,6 +16,7 @@ export PATH := $(CURDIR)/$(BIN):$(PATH)
 DEMO := b313_s302 hot_header
 NODES := 50 200 1000
 CASES := lin gap fric1 fric10
+RACKS := tests/data
 ARGS :=
 
 .PHONY: demo test lint bench debug-test build clean
@@ -40,7 +41,7 @@ lint: $(READY)
 bench: build
 	@mkdir -p build/bench
 	@set -e; for n in $(NODES); do for case in $(CASES); do \
-	    $(BIN)/python benchmarks/rack.py benchmarks/models/rack_$$n.json $$case \
+	    $(BIN)/python benchmarks/rack.py $(RACKS)/rack_$$n.json.gz $$case \
 	        -o build/bench/rack_$${n}_$$case.json; \
 	done; done
 
@@ -56,7 +57,6 @@ build: $(READY)
 
 $(READY): pyproject.toml meson.build .ci/setup
 	@.ci/setup
-	@touch $@
 
 clean:
 	rm -rf .venv build demo
