@@ -1,0 +1,115 @@
+"""Checks of a model that need no geometry: values in range, names that exist."""
+
+from math import inf, isfinite
+
+from trunnion.bends import pipe_name
+from trunnion.errors import Problem
+from trunnion.model import Material, Model, Section
+from trunnion.vectors import size
+
+
+def check_model(model: Model) -> list[Problem]:
+    """List what is wrong with the records of a model, in the deck's order by kind."""
+    problems: list[Problem] = []
+    if not (model.pipes or model.springs or model.supports):
+        problems.append(Problem("model", "there is no pipe, spring or support"))
+    for material in model.materials.values():
+        problems += [Problem(material.place, text) for text in _material(material)]
+    for section in model.sections.values():
+        problems += [Problem(section.place, text) for text in _section(section)]
+    _pipes(model, problems)
+    _springs_and_masses(model, problems)
+    _supports(model, problems)
+    return problems
+
+
+def _material(m: Material) -> list[str]:
+    name = f"MATERIAL {m.name}"
+    checks = {
+        "E must be positive": 0.0 < m.e < inf,
+        "NU must lie between -1 and 0.5": -1.0 < m.nu <= 0.5,
+        "ALPHA must be finite": isfinite(m.alpha),
+        "DENSITY is negative": 0.0 <= m.density < inf,
+        "E of the table must be positive": all(p.e is None or p.e > 0.0 for p in m.table),
+        "the table must rise in temperature": all(
+            a.t < b.t for a, b in zip(m.table, m.table[1:], strict=False)
+        ),
+    }
+    return [f"{name}: {text}" for text, fine in checks.items() if not fine]
+
+
+def _section(s: Section) -> list[str]:
+    bore = s.od - 2.0 * s.wall
+    checks = {
+        "OD must be positive": 0.0 < s.od < inf,
+        "WALL must be positive": 0.0 < s.wall < inf,
+        "WALL is more than half of OD": bore >= -1e-12 * abs(s.od),
+        "LINING fills more than the bore": s.lining <= 0.5 * bore + 1e-12 * abs(s.od),
+    }
+    for key in ("fluid", "lining", "lining_density", "insulation", "insulation_density"):
+        checks[f"{key.upper()} is negative"] = 0.0 <= getattr(s, key) < inf
+    checks["WEIGHT must be finite"] = isfinite(s.weight)
+    return [f"SECTION {s.name}: {text}" for text, fine in checks.items() if not fine]
+
+
+def _pipes(model: Model, problems: list[Problem]) -> None:
+    for pipe in model.pipes:
+        bad: list[str] = []
+        if pipe.start == pipe.end:
+            bad.append("starts and ends at the same node")
+        if pipe.section not in model.sections:
+            bad.append(f"section {pipe.section!r} is not defined")
+        if pipe.material not in model.materials:
+            bad.append(f"material {pipe.material!r} is not defined")
+        if pipe.delta is not None and not 0.0 < size(pipe.delta) < inf:
+            bad.append("has no length")
+        if not 0.0 <= pipe.weight < inf:
+            bad.append("the weight is negative")
+        if bad:
+            name = f"{'RIGID' if pipe.rigid else 'PIPE'} {pipe_name(pipe)}"
+            problems += [Problem(pipe.place, f"{name}: {text}") for text in bad]
+
+
+def _springs_and_masses(model: Model, problems: list[Problem]) -> None:
+    for spring in model.springs:
+        name = f"SPRING {spring.start}-{spring.end}"
+        if spring.start == spring.end:
+            problems.append(Problem(spring.place, f"{name}: starts and ends at the same node"))
+        if not all(0.0 <= k < inf for k in spring.k):
+            problems.append(Problem(spring.place, f"{name}: a stiffness is negative"))
+        if spring.axis is not None and not 0.0 < size(spring.axis) < inf:
+            problems.append(Problem(spring.place, f"{name}: AXIS has no direction"))
+    for mass in model.masses:
+        if not 0.0 <= mass.mass < inf:
+            problems.append(Problem(mass.place, f"MASS {mass.node}: the mass is negative"))
+    moved: set[tuple[str, str, int]] = set()
+    for d in model.displacements:
+        for i in (i for i, value in enumerate(d.d) if value is not None):
+            if (d.node, d.set, i) in moved:
+                word = ("DX", "DY", "DZ", "RX", "RY", "RZ")[i]
+                text = f"DISPLACEMENT {d.node}: D{d.set} {word} is given twice"
+                problems.append(Problem(d.place, text))
+            moved.add((d.node, d.set, i))
+
+
+def _supports(model: Model, problems: list[Problem]) -> None:
+    for s in model.supports:
+        bad: list[str] = []
+        if s.cnode == s.node:
+            bad.append("CNODE is the node itself")
+        if any(k is not None and not 0.0 <= k < inf for k in (s.k, s.kr, *(s.ks or ()))):
+            bad.append("a stiffness is negative")
+        if s.axis is not None and not 0.0 < size(s.axis) < inf:
+            bad.append("AXIS has no direction")
+        if s.kind == "support" and not s.directions:
+            bad.append("no direction is given")
+        for d in s.directions:
+            if not all(g >= 0.0 for g in d.gap):
+                bad.append(f"{d.word}: a gap is negative")
+            if any(k is not None and not 0.0 < k < inf for k in (d.k, d.kf)):
+                bad.append(f"{d.word}: the stiffness must be positive")
+            if d.mu is not None and not 0.0 <= d.mu < inf:
+                bad.append(f"{d.word}: MU is negative")
+            if d.vector is not None and not 0.0 < size(d.vector) < inf:
+                bad.append(f"{d.word}: is no direction")
+        problems += [Problem(s.place, f"{s.kind.upper()} {s.node}: {text}") for text in bad]

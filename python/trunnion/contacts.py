@@ -1,0 +1,250 @@
+"""Support cards become contacts (normals with two sides) and sliders (friction)."""
+
+from dataclasses import dataclass, field
+from math import cos, inf, radians
+from typing import NamedTuple
+
+import numpy as np
+
+from trunnion.arrays import Card, Contacts, Part, Sliders
+from trunnion.elements import Elements
+from trunnion.errors import ModelError, Problem
+from trunnion.model import Direction, Model, Settings, Support
+from trunnion.tangents import PipeAxes
+from trunnion.vectors import AXES, Vec, complement, cross, dot, forward, unit, upright
+
+VERTICAL = cos(radians(5.0))  # a pipe within 5 degrees of vertical is guided all round
+WORDS = ("X", "Y", "Z", "RX", "RY", "RZ")
+ZERO: Vec = (0.0, 0.0, 0.0)
+
+
+class Row(NamedTuple):
+    """One contact, fields as in arrays.Contacts; mu and kf (0: none) belong to its friction."""
+
+    card: int
+    rotational: bool
+    normals: tuple[Vec, ...]
+    gap: tuple[float, float]
+    k: float
+    penalty: bool
+    word: str
+    mu: float = 0.0
+    kf: float = 0.0
+
+
+class Slide(NamedTuple):
+    """One slider, fields as in arrays.Sliders."""
+
+    card: int
+    basis: list[Vec]
+    mu: float
+    kf: float
+    contacts: list[int]
+
+
+@dataclass(frozen=True, slots=True)
+class Supports:
+    """What stands on the nodes, in the deck's order."""
+
+    contacts: Contacts
+    sliders: Sliders
+    cards: tuple[Card, ...]
+
+
+@dataclass(slots=True)
+class _Lists:
+    node: list[int] = field(default_factory=list)  # of each card
+    cnode: list[int] = field(default_factory=list)
+    cards: list[Card] = field(default_factory=list)
+    rows: list[Row] = field(default_factory=list)
+    slides: list[Slide] = field(default_factory=list)
+
+    def card(self, card: Card, node: int, cnode: int) -> int:
+        self.cards.append(card)
+        self.node.append(node)
+        self.cnode.append(cnode)
+        return len(self.cards) - 1
+
+
+def build_contacts(
+    model: Model, elements: Elements, parts: tuple[Part, ...], index: dict[str, int], up: Vec
+) -> Supports:
+    """Give the contacts and sliders of all supports; raise all problems at once."""
+    lists = _Lists()
+    problems: list[Problem] = []
+    along = PipeAxes(model, elements, parts, index)
+    for s in model.supports:
+        cnode = -1 if s.cnode is None else index[s.cnode]
+        card = lists.card(
+            Card(s.node, s.cnode, s.name or card_name(s), s.kind, s.place.line),
+            index[s.node],
+            cnode,
+        )
+        if s.kind == "support":
+            found = len(problems)
+            rows = [
+                _direction(s, d, card, model.settings, along, up, problems) for d in s.directions
+            ]
+            if len(problems) == found:
+                _add_slides(s, rows, model.settings, lists)
+                lists.rows += rows
+        else:
+            lists.rows += _fixed(s, card, model.settings, up)
+    _held_nodes(model, index, lists)
+    if problems:
+        raise ModelError(problems)
+    return Supports(_contacts(lists), _sliders(lists), tuple(lists.cards))
+
+
+def card_name(s: Support) -> str:
+    """Name a card by its node and words: "20 +Y GUIDE", "10 ANCHOR"."""
+    words = [d.word for d in s.directions] if s.kind == "support" else [s.kind.upper()]
+    return " ".join([s.node, *words])
+
+
+def _direction(
+    s: Support,
+    d: Direction,
+    card: int,
+    settings: Settings,
+    along: PipeAxes,
+    up: Vec,
+    problems: list[Problem],
+) -> Row:
+    """Give the contact of one direction word."""
+    word = d.word.upper()
+    bare = word.lstrip("+-")
+    rotational = bare in WORDS[3:]
+    normals: tuple[Vec, ...] = (ZERO,)
+    gap = d.gap
+    if d.vector is not None:
+        normals = (unit(d.vector),)
+    elif bare in WORDS:
+        normals = (AXES[WORDS.index(bare) % 3],)
+    elif word in ("GUIDE", "LIMIT"):
+        try:
+            axis = along.at(s.node, d.along)
+        except ValueError as error:
+            problems.append(Problem(s.place, f"SUPPORT {s.node}: {word}: {error}"))
+        else:
+            normals = _pipe_normals(word, axis, up)
+            if len(normals) == 2 and gap[0] != gap[1]:
+                text = f"SUPPORT {s.node}: GUIDE: round a vertical pipe there is one radial gap"
+                problems.append(Problem(s.place, text))
+    else:
+        problems.append(Problem(s.place, f"SUPPORT {s.node}: direction {d.word} is not known"))
+    if word.startswith("+"):
+        gap = (gap[0], inf)
+    elif word.startswith("-"):
+        gap = (inf, gap[1])
+    stiffness = (settings.kr if rotational else settings.k) if d.k is None else d.k
+    mu = 0.0 if rotational else settings.mu if d.mu is None else d.mu
+    kf = settings.kf if d.kf is None else d.kf
+    return Row(card, rotational, normals, gap, stiffness, d.k is None, d.word, mu, kf)
+
+
+def _pipe_normals(word: str, axis: Vec, up: Vec) -> tuple[Vec, ...]:
+    """Normals of a GUIDE or LIMIT on a pipe along `axis`."""
+    if word == "LIMIT":
+        return (forward(axis),)
+    if abs(dot(axis, up)) >= VERTICAL:
+        return tuple(e for e in AXES if dot(e, up) == 0.0)
+    return (forward(unit(cross(up, axis))),)
+
+
+def _fixed(s: Support, card: int, settings: Settings, up: Vec) -> list[Row]:
+    """Two-way contacts without friction: anchors, hangers, springs to ground."""
+    gap = (0.0, 0.0)
+    if s.kind == "anchor":
+        k = (s.k or settings.k, s.kr or settings.kr)
+        own = (s.k is None, s.kr is None)
+        return [
+            Row(card, i >= 3, (AXES[i % 3],), gap, k[i // 3], own[i // 3], WORDS[i])
+            for i in range(6)
+        ]
+    if s.kind == "hanger":
+        word = next(w for w, e in zip(WORDS, AXES, strict=False) if e == up)
+        return [Row(card, False, (up,), gap, s.k or 0.0, False, word)]
+    axes = AXES if s.axis is None else upright(unit(s.axis), up)
+    return [
+        Row(card, i >= 3, (axes[i % 3],), gap, k, False, "K" + WORDS[i])
+        for i, k in enumerate(s.ks or ())
+        if k > 0.0
+    ]
+
+
+def _add_slides(s: Support, rows: list[Row], settings: Settings, lists: _Lists) -> None:
+    """Give a card its friction: a slider a contact, or one for the card (RESULTANT)."""
+    first = len(lists.rows)
+    law = next((d.friction for d in s.directions if d.friction is not None), settings.friction)
+    if law == "CONTACT":
+        for i, row in enumerate(rows, start=first):
+            if row.mu > 0.0:
+                basis = complement(list(row.normals))
+                lists.slides.append(Slide(row.card, basis, row.mu, row.kf, [i]))
+        return
+    pressing = [i for i, row in enumerate(rows) if not row.rotational]
+    if not pressing:
+        return
+    rough = max((rows[i] for i in pressing), key=lambda row: row.mu)
+    touching = [i for i in pressing if 0.0 in rows[i].gap] or pressing
+    basis = complement([n for i in touching for n in rows[i].normals])
+    if rough.mu > 0.0 and basis:
+        contacts = [first + i for i in pressing]
+        lists.slides.append(Slide(rough.card, basis, rough.mu, rough.kf, contacts))
+
+
+def _held_nodes(model: Model, index: dict[str, int], lists: _Lists) -> None:
+    """Imposed displacements where no support stands on ground: the node itself is held."""
+    grounded = {n for n, c in zip(lists.node, lists.cnode, strict=True) if c < 0}
+    given: dict[int, list[int]] = {}
+    first: dict[int, Card] = {}
+    for d in model.displacements:
+        node = index[d.node]
+        if node not in grounded:
+            name = f"{d.node} DISPLACEMENT"
+            first.setdefault(node, Card(d.node, None, name, "displacement", d.place.line))
+            given.setdefault(node, []).extend(i for i, x in enumerate(d.d) if x is not None)
+    k = (model.settings.k, model.settings.kr)
+    for node, components in given.items():
+        card = lists.card(first[node], node, -1)
+        lists.rows += [
+            Row(card, i >= 3, (AXES[i % 3],), (0.0, 0.0), k[i // 3], True, WORDS[i])
+            for i in sorted(set(components))
+        ]
+
+
+def _contacts(lists: _Lists) -> Contacts:
+    rows = lists.rows
+    card = np.array([r.card for r in rows], dtype=np.int32)
+    gap = np.array([r.gap for r in rows], dtype=np.float64).reshape(-1, 2)
+    normal = [(*r.normals, ZERO)[:2] for r in rows]
+    return Contacts(
+        node=np.array(lists.node, dtype=np.int32)[card],
+        cnode=np.array(lists.cnode, dtype=np.int32)[card],
+        card=card,
+        rotational=np.array([r.rotational for r in rows], dtype=np.bool_),
+        dim=np.array([len(r.normals) for r in rows], dtype=np.int32),
+        normal=np.array(normal, dtype=np.float64).reshape(-1, 2, 3),
+        gap=gap,
+        k=np.array([r.k for r in rows], dtype=np.float64),
+        penalty=np.array([r.penalty for r in rows], dtype=np.bool_),
+        two_way=(gap == 0.0).all(axis=1),
+        word=tuple(r.word for r in rows),
+    )
+
+
+def _sliders(lists: _Lists) -> Sliders:
+    slides = lists.slides
+    card = np.array([s.card for s in slides], dtype=np.int32)
+    basis = [(*s.basis, ZERO)[:2] for s in slides]
+    return Sliders(
+        node=np.array(lists.node, dtype=np.int32)[card],
+        cnode=np.array(lists.cnode, dtype=np.int32)[card],
+        card=card,
+        basis=np.array(basis, dtype=np.float64).reshape(-1, 2, 3),
+        mu=np.array([s.mu for s in slides], dtype=np.float64),
+        kf=np.array([s.kf for s in slides], dtype=np.float64),
+        first=np.cumsum([0, *(len(s.contacts) for s in slides)], dtype=np.int32),
+        contact=np.array([i for s in slides for i in s.contacts], dtype=np.int32),
+    )

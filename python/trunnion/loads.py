@@ -1,0 +1,275 @@
+"""Load cases as arrays: weight, temperature, pressure, movements, forces, accelerations."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from math import pi
+
+import numpy as np
+
+from trunnion.arrays import ARC, F8, Loads, System
+from trunnion.errors import ModelError, Problem
+from trunnion.expansion import OutsideTableError, free_strain
+from trunnion.model import Case, Model, Term
+from trunnion.weights import line_weights
+
+
+@dataclass(frozen=True, slots=True)
+class LoadSets:
+    """Every load set of a model with factor 1, on its numbered system.
+
+    weight : W, WNC, WW -> (n_elem,) weight per length of axis [N/m].
+    lump : (n_node,) weight of concentrated masses [N].
+    strain : T set -> (n_elem,) free strain.
+    pressure : P set -> (n_elem,) [Pa].
+    elongation, opening : (n_elem,) free strain and curvature [1/m] by pressure, times EA/P.
+    force : F set -> (n_node, 6) [N, N m].
+    base : D set -> (n_card, 6) [m, rad].
+    preload : (n_card,) cold load of hangers [N].
+    acceleration : U set -> (3,) [g].
+    """
+
+    up: F8
+    weight: Mapping[str, F8]
+    lump: F8
+    strain: Mapping[str, F8]
+    pressure: Mapping[str, F8]
+    elongation: F8
+    opening: F8
+    force: Mapping[str, F8]
+    base: Mapping[str, F8]
+    preload: F8
+    acceleration: Mapping[str, F8]
+    bare: Mapping[str, int] = field(default_factory=dict)  # T set -> pipes without it
+    hangers: int = 0
+
+
+def load_sets(model: Model, system: System) -> LoadSets:
+    """Evaluate all load sets once; raise what the cases ask for and is not there."""
+    problems: list[Problem] = []
+    strain, bare = _strains(model, system, problems)
+    elongation, opening = _pressure_effects(model, system)
+    sets = LoadSets(
+        up=system.up,
+        weight=line_weights(model, system),
+        lump=_lumps(model, system),
+        strain=strain,
+        pressure=_pressures(model, system),
+        elongation=elongation,
+        opening=opening,
+        force=_forces(model, system),
+        base=_bases(model, system),
+        preload=_preloads(model, system),
+        acceleration=_accelerations(model),
+        bare=bare,
+        hangers=sum(s.kind == "hanger" for s in model.supports),
+    )
+    for case in model.cases:
+        if isinstance(case, Case):
+            problems += missing_sets(sets, case)
+    if problems:
+        raise ModelError(problems)
+    return sets
+
+
+def case_loads(model: Model, system: System, case: Case, sets: LoadSets | None = None) -> Loads:
+    """Sum the sets of one case.
+
+    `system` is the hot one where the case asks for E=HOT: strain by pressure follows its modulus.
+    """
+    sets = load_sets(model, system) if sets is None else sets
+    problems = missing_sets(sets, case)
+    if problems:
+        raise ModelError(problems)
+    n_elem, n_node, n_card = len(system.ends), len(system.xyz), len(system.cards)
+    dist, nodal = np.zeros((n_elem, 3)), np.zeros((n_node, 6))
+    strain, pressure = np.zeros(n_elem), np.zeros(n_elem)
+    base, preload = np.zeros((n_card, 6)), np.zeros(n_card)
+    for term in case.terms:
+        f, name, which = term.factor, term.name, term.name[1:]
+        if name in sets.weight:
+            dist -= np.outer(f * sets.weight[name], sets.up)
+            nodal[:, :3] -= np.outer(f * sets.lump, sets.up)
+        elif name == "H":
+            preload += f * sets.preload
+        elif name[0] == "T":
+            strain += f * sets.strain[which]
+        elif name[0] == "P":
+            pressure += f * sets.pressure[which]
+        elif name[0] == "D":
+            base += f * sets.base[which]
+        elif name[0] == "F":
+            nodal += f * sets.force[which]
+        else:
+            a = f * _acceleration(sets, term)
+            dist += np.outer(sets.weight["W"], a)
+            nodal[:, :3] += np.outer(sets.lump, a)
+    ea = system.rigidity[:, 0]
+    per_ea = pressure / np.where(ea > 0.0, ea, 1.0)
+    return Loads(
+        dist=dist,
+        strain=strain + sets.elongation * per_ea,
+        curvature=sets.opening * per_ea,
+        nodal=nodal,
+        base=base,
+        preload=preload,
+        pressure=pressure,
+        mux=case.mux,
+    )
+
+
+def case_warnings(sets: LoadSets, case: Case) -> tuple[str, ...]:
+    """List what is legal in a case but seldom meant."""
+    names = {term.name for term in case.terms}
+    heavy = sorted(names & {"W", "WNC", "WW"})
+    found: list[str] = []
+    if heavy and sets.hangers and "H" not in names:
+        count = f"{sets.hangers} hanger{'s' if sets.hangers > 1 else ''}"
+        found.append(f"{case.name}: {heavy[0]} without H: the cold load of {count} is left out")
+    if "H" in names and not sets.hangers:
+        found.append(f"{case.name}: H: there are no hangers")
+    for name in sorted(n for n in names if n[0] == "T" and sets.bare.get(n[1:])):
+        found.append(f"{case.name}: {name} is not given on {sets.bare[name[1:]]} pipes")
+    return tuple(found)
+
+
+def missing_sets(sets: LoadSets, case: Case) -> list[Problem]:
+    """List terms of a case that nothing in the model gives."""
+    homes: dict[str, Mapping[str, F8]] = {
+        "T": sets.strain,
+        "P": sets.pressure,
+        "D": sets.base,
+        "F": sets.force,
+        "U": sets.acceleration,
+    }
+    problems: list[Problem] = []
+    for term in case.terms:
+        name = term.name
+        if name in sets.weight or name == "H" or (name == "U" and term.vector is not None):
+            continue
+        if name[:1] not in homes or not name[1:]:
+            problems.append(Problem(case.place, f"CASE {case.name}: {name} is not a load set"))
+        elif name[1:] not in homes[name[0]]:
+            text = f"CASE {case.name}: nothing in the model gives {name}"
+            problems.append(Problem(case.place, text))
+    return problems
+
+
+def _acceleration(sets: LoadSets, term: Term) -> F8:
+    if term.vector is not None:
+        return np.array(term.vector)
+    return sets.acceleration[term.name[1:]]
+
+
+def _lumps(model: Model, system: System) -> F8:
+    lump = np.zeros(len(system.xyz))
+    node = node_numbers(system)
+    for mass in model.masses:
+        lump[node[mass.node]] += model.settings.g * mass.mass
+    return lump
+
+
+def node_numbers(system: System) -> dict[str, int]:
+    """Return the node number of every label."""
+    return {label: i for i, label in enumerate(system.labels)} | system.alias
+
+
+def _strains(
+    model: Model, system: System, problems: list[Problem]
+) -> tuple[dict[str, F8], dict[str, int]]:
+    """Free thermal strain by set; no strain where an element has no such temperature."""
+    names = sorted({name for pipe in model.pipes for name in pipe.operation.t})
+    rows = {name: [0.0] * (len(model.pipes) + 1) for name in names}
+    bare = dict.fromkeys(names, 0)
+    known: dict[tuple[str, float, float], float] = {}
+    for i, pipe in enumerate(model.pipes):
+        for name in names:
+            t = pipe.operation.t.get(name)
+            if t is None:
+                bare[name] += 1
+                continue
+            key = (pipe.material, t, pipe.operation.tref)
+            if key not in known:
+                material = model.materials[pipe.material]
+                known[key] = 0.0
+                try:
+                    known[key] = free_strain(material, t, pipe.operation.tref)
+                except OutsideTableError as error:
+                    text = f"MATERIAL {material.name}: T{name} of {pipe.start}-{pipe.end}: {error}"
+                    problems.append(Problem(pipe.place, text))
+            rows[name][i] = known[key]
+    return {name: np.array(row)[system.source] for name, row in rows.items()}, bare
+
+
+def _pressures(model: Model, system: System) -> dict[str, F8]:
+    names = sorted({name for pipe in model.pipes for name in pipe.operation.p})
+    return {
+        name: np.array([*(p.operation.p.get(name, 0.0) for p in model.pipes), 0.0])[system.source]
+        for name in names
+    }
+
+
+def _pressure_effects(model: Model, system: System) -> tuple[F8, F8]:
+    """Free strain and curvature of closed-end pipe by pressure, times EA/P.
+
+    The end thrust P pi ri^2 gives the axial stress s = P ri^2/(ro^2 - ri^2) and, with the hoop
+    stress 2 s on average, the strain s (1 - 2 nu)/E.
+
+    A bend also opens.  In the torus (Timoshenko and Woinowsky-Krieger, Theory of Plates and
+    Shells, art. 108 b) the membrane forces are N_axial = P r/2 everywhere and
+    N_hoop = (P r/2) (2 R + r sin f)/(R + r sin f), f from the crown.  Let the angle of the bend
+    change by the part w.  A fibre at rho = R + r sin f with strain e(f) moves outwards by
+    rho (e - w).  Its slope round the section at the crown (f = 0) must be r e_hoop cos f, or the
+    section would kink there: r (e - w) + R e' = r e_hoop at f = 0.  With
+    e = P r (1 - 2 nu)/(2 E t), R e'/r = nu P r/(2 E t) and e_hoop = P r (2 - nu)/(2 E t):
+    w = -P r/(2 E t) = -s/E, whatever R and nu.  The change of curvature is w/R.
+    """
+    settings = model.settings
+    nothing = np.zeros(len(system.ends))
+    if settings.bourdon == "OFF":
+        return nothing, nothing
+    nu = np.array([*(model.materials[p.material].nu for p in model.pipes), 0.0])[system.source]
+    bore = system.od - 2.0 * system.wall
+    thrust = 0.25 * pi * bore**2
+    elongation = thrust * (1.0 - 2.0 * nu)
+    arcs = system.kind == ARC
+    if settings.bourdon == "OPENING" and arcs.any():
+        return elongation, np.where(arcs, -thrust / np.where(arcs, system.radius, 1.0), 0.0)
+    return elongation, nothing
+
+
+def _forces(model: Model, system: System) -> dict[str, F8]:
+    node = node_numbers(system)
+    force: dict[str, F8] = {}
+    for f in model.forces:
+        force.setdefault(f.set, np.zeros((len(system.xyz), 6)))[node[f.node]] += f.f
+    return force
+
+
+def _bases(model: Model, system: System) -> dict[str, F8]:
+    """Movement of the ground under the cards of a node; a card on a CNODE follows that node."""
+    node = node_numbers(system)
+    cards: dict[int, list[int]] = {}
+    for i, card in enumerate(system.cards):
+        if card.cnode is None:
+            cards.setdefault(node[card.label], []).append(i)
+    base: dict[str, F8] = {}
+    for d in model.displacements:
+        moved = base.setdefault(d.set, np.zeros((len(system.cards), 6)))
+        moved[cards[node[d.node]]] += [x or 0.0 for x in d.d]
+    return base
+
+
+def _preloads(model: Model, system: System) -> F8:
+    """Cold loads: the cards of supports lead System.cards in the model's order."""
+    preload = np.zeros(len(system.cards))
+    for i, s in enumerate(model.supports):
+        if s.kind == "hanger":
+            preload[i] = s.load
+    return preload
+
+
+def _accelerations(model: Model) -> dict[str, F8]:
+    sums: dict[str, F8] = {}
+    for a in model.accelerations:
+        sums[a.set] = sums.get(a.set, np.zeros(3)) + np.array(a.a)
+    return sums

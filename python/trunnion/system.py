@@ -1,0 +1,83 @@
+"""A model becomes numbers: nodes in order of appearance, elements, contacts and sliders."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from trunnion.arrays import System
+from trunnion.checks import check_model
+from trunnion.contacts import build_contacts
+from trunnion.elements import build_elements
+from trunnion.errors import ModelError, Problem
+from trunnion.expansion import OutsideTableError, modulus_at
+from trunnion.geometry import place
+from trunnion.model import Model
+from trunnion.numbering import number
+from trunnion.vectors import Vec
+
+UP: dict[str, Vec] = {"Y": (0.0, 1.0, 0.0), "Z": (0.0, 0.0, 1.0)}
+
+
+def build_system(model: Model) -> System:
+    """Number a model; raise the problems of each phase, with their places, at once."""
+    problems = check_model(model)
+    geometry = place(model, problems)
+    numbering = number(model, geometry, problems)
+    if problems:
+        raise ModelError(problems)
+    points = [geometry.points[label] for label in numbering.labels]
+    xyz = np.array(points, dtype=np.float64).reshape(-1, 3)
+    up = UP[model.settings.up]
+    elements = build_elements(model, geometry, numbering, xyz, up)
+    parts = tuple(row.names for row in numbering.rows)
+    supports = build_contacts(model, elements, parts, numbering.index, up)
+    return System(
+        labels=tuple(numbering.labels),
+        alias=numbering.alias,
+        xyz=xyz,
+        ends=elements.ends,
+        kind=elements.kind,
+        axes=elements.axes,
+        length=elements.length,
+        radius=elements.radius,
+        angle=elements.angle,
+        rigidity=elements.rigidity,
+        flex=elements.flex,
+        spring=elements.spring,
+        od=elements.od,
+        wall=elements.wall,
+        parts=parts,
+        contacts=supports.contacts,
+        sliders=supports.sliders,
+        cards=supports.cards,
+        up=np.array(up),
+        source=elements.source,
+        mid=numbering.mid,
+    )
+
+
+def hot_system(model: Model, system: System, which: str) -> System:
+    """Give the system with the moduli at temperature set `which` ("1" ... "9").
+
+    Elements without that set keep the cold modulus; so do the factors k of bends.
+    """
+    problems: list[Problem] = []
+    known: dict[tuple[str, float], float] = {}
+    ratio = np.ones(len(model.pipes) + 1)
+    for i, pipe in enumerate(model.pipes):
+        t = pipe.operation.t.get(which)
+        if t is None:
+            continue
+        key = (pipe.material, t)
+        if key not in known:
+            material = model.materials[pipe.material]
+            known[key] = 1.0
+            try:
+                known[key] = modulus_at(material, t) / material.e
+            except OutsideTableError as error:
+                text = f"MATERIAL {material.name}: E=HOT with T{which}: {error}"
+                problems.append(Problem(material.place, text))
+        ratio[i] = known[key]
+    if problems:
+        raise ModelError(problems)
+    return replace(system, rigidity=system.rigidity * ratio[system.source, None])
