@@ -1,0 +1,195 @@
+"""The certificate: whether reported numbers are an answer, checked from the numbers alone.
+
+Imports no kernel and nothing of the solver.  Every item is the largest relative error of one law;
+at most `LIMIT` passes, NaN counts as inf.  Relative to what (`scales`): forces to the largest
+support force or non-thermal load, moments to the largest moment or that force times 1 m,
+displacements to the largest displacement, deformations to the largest deformation, rotations
+apart.  A quantity that is only the round-off of a larger kin is measured against a small part of
+the kin (`floor`), and one that has no kin at all against 1 N, 1 N m, 1 m, 1 rad.
+"""
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+
+from trunnion import contactlaw, deformation
+from trunnion.arrays import F8, SPRING, Certificate, Item, Loads, State, System
+from trunnion.deformation import cross, two_difference
+from trunnion.scales import Scale, floor, largest, measure
+
+LIMIT = 1e-9
+
+Where = Callable[[int], str]
+
+
+def certify(
+    system: System, loads: Loads, state: State, *, correction_u: float, correction_r: float
+) -> Certificate:
+    """Check the numbers of one case.
+
+    Parameters
+    ----------
+    correction_u, correction_r : next consistent correction of displacements and of reactions,
+        relative to the largest, as the solver found it.
+    """
+    with np.errstate(all="ignore"):  # numbers that are none show in the items
+        scale = measure(system, loads, state)
+        contact, slider = _contact(system), _slider(system)
+        contacts = contactlaw.contact_errors(system, loads, state, scale)
+        sliders = contactlaw.slider_errors(system, loads, state, scale)
+        items = [
+            _finite(system, state),
+            _equilibrium(system, loads, state, scale),
+            *_elements(system, loads, state, scale),
+            *(_item(name, error, contact) for name, error in contacts.items()),
+            *(_item(name, error, slider) for name, error in sliders.items()),
+            Item("correction_u", _number(correction_u), ""),
+            Item("correction_r", _number(correction_r), ""),
+        ]
+    worst = max(items, key=lambda item: item.value)
+    where = f"{worst.name} at {worst.where}" if worst.where else worst.name
+    return Certificate(worst.value <= LIMIT, worst.value, where, tuple(items))
+
+
+def _number(value: float) -> float:
+    return abs(float(value)) if math.isfinite(value) else math.inf
+
+
+def _item(name: str, relative: F8, where: Where) -> Item:
+    """Worst entry of (n,) relative errors; argmax finds a NaN first."""
+    if relative.size == 0:
+        return Item(name, 0.0, "")
+    worst = int(np.argmax(relative))
+    return Item(name, _number(relative[worst]), where(worst))
+
+
+def _finite(system: System, state: State) -> Item:
+    """Nothing reported may be NaN or infinite."""
+    node, element = _node(system), _element(system)
+    contact, slider = _contact(system), _slider(system)
+    for name, array, where in (
+        ("u", state.u, node),
+        ("u_low", state.u_low, node),
+        ("end_force", state.end_force, element),
+        ("reaction", state.reaction, contact),
+        ("friction", state.friction, slider),
+        ("normal", state.normal, slider),
+        ("slide", state.slide, slider),
+        ("datum", state.datum, slider),
+        ("datum_end", state.datum_end, slider),
+    ):
+        if not math.isfinite(float(array.sum())):
+            rows = ~np.isfinite(array.reshape(len(array), -1)).all(axis=1)
+            return Item("finite", math.inf, f"{where(int(np.argmax(rows)))} ({name})")
+    return Item("finite", 0.0, "")
+
+
+def _equilibrium(system: System, loads: Loads, state: State, scale: Scale) -> Item:
+    """Support forces and nodal loads less reported end forces are zero at every node."""
+    contacts, sliders = system.contacts, system.sliders
+    push, moment = state.reaction, np.zeros_like(state.reaction)
+    if contacts.rotational.any():
+        turning = contacts.rotational[:, None]
+        push, moment = np.where(turning, 0.0, push), np.where(turning, push, 0.0)
+    nodes = [system.ends.ravel(), contacts.node, sliders.node]
+    end = state.end_force.reshape(-1, 6)
+    forces = [-end[:, :3], push, state.friction]
+    moments = [-end[:, 3:], moment]
+    for cnode, force, torque in (
+        (contacts.cnode, push, moment),
+        (sliders.cnode, state.friction, np.zeros_like(state.friction)),
+    ):
+        on = np.flatnonzero(cnode >= 0)
+        if on.size:
+            nodes.append(cnode[on])
+            forces.append(-force[on])
+            moments.append(-torque[on])
+    at = np.concatenate(nodes)
+    if len(sliders.mu):
+        moments.insert(2, np.zeros_like(state.friction))
+    residual = loads.nodal.T.copy()
+    for i, part in enumerate((*np.concatenate(forces).T, *np.concatenate(moments).T)):
+        residual[i] += np.bincount(at, part, len(system.labels))
+    return _item("equilibrium", _six(residual, scale.force, scale.moment), _node(system))
+
+
+def _six(error: F8, translational: float, rotational: float) -> F8:
+    """Larger relative error of the two halves of (6, n)."""
+    error = np.abs(error)
+    half = np.maximum(error[:3] / translational, error[3:] / rotational)
+    relative: F8 = half.max(axis=0)
+    return relative
+
+
+def _elements(system: System, loads: Loads, state: State, scale: Scale) -> list[Item]:
+    """Balance of every element with its load, and deformations against end forces."""
+    first, tip = np.ascontiguousarray(state.end_force.transpose(1, 2, 0))
+    d, dist = deformation.tip_vector(system), np.ascontiguousarray(loads.dist.T)
+    sums = first + tip
+    sums[:3] += dist * system.length
+    sums[3:] += cross(d, tip[:3]) + deformation.load_moment(system, dist)
+    balance = _six(sums, scale.force, scale.moment)
+
+    i, j = system.ends.T
+    u, low = np.ascontiguousarray(state.u.T), np.ascontiguousarray(state.u_low.T)
+    move, error = two_difference(u[:, j], u[:, i])
+    error += low[:, j] - low[:, i]
+    turn = u[3:, i]
+    law = deformation.expected(system, loads, tip)
+    spring = np.flatnonzero(system.kind == SPRING)
+    if spring.size:
+        turn[:, spring] += 0.5 * move[3:, spring]
+    v = move.copy()
+    v[:3] -= cross(turn, d)
+    v += error
+    stray = np.zeros(0)
+    if spring.size:
+        v[:, spring], law[:, spring], stray = _spring(system, v, tip, d, spring)
+    free = loads.strain * system.length
+    own, swing = largest(v[:3], law[:3]), largest(v[3:], law[3:])
+    length = floor(own, max(1e-4 * largest(move[:3], free), 1e-3 * swing))
+    angle = floor(swing, max(1e-4 * largest(move[3:]), 1e-3 * own))
+    wrong = _six(v - law, length, angle)
+    if spring.size:
+        wrong[spring] = np.maximum(wrong[spring], stray / scale.force)
+    name = _element(system)
+    return [_item("element_balance", balance, name), _item("element_law", wrong, name)]
+
+
+def _spring(system: System, v: F8, tip: F8, d: F8, at: deformation.Index) -> tuple[F8, F8, F8]:
+    """Deformation at mid-distance, force over stiffness, and force where there is none."""
+    k = system.spring[at].T
+    middle = tip[3:, at] + 0.5 * cross(d[:, at], tip[:3, at])
+    own = [
+        np.concatenate([np.einsum("nij,jn->in", system.axes[at], x) for x in pair])
+        for pair in ((v[:3, at], v[3:, at]), (tip[:3, at], middle))
+    ]
+    held = k > 0.0
+    law = np.divide(own[1], k, out=np.array(own[0]), where=held)
+    return own[0], law, np.where(held, 0.0, np.abs(own[1])).max(axis=0)
+
+
+def _node(system: System) -> Where:
+    return lambda i: f"node {system.labels[i]}"
+
+
+def _element(system: System) -> Where:
+    return lambda i: f"element {system.parts[i].start}-{system.parts[i].end}"
+
+
+def _contact(system: System) -> Where:
+    def where(i: int) -> str:
+        card = system.cards[system.contacts.card[i]]
+        return f"{card.kind} {card.label} {system.contacts.word[i]}"
+
+    return where
+
+
+def _slider(system: System) -> Where:
+    def where(i: int) -> str:
+        card, s = system.cards[system.sliders.card[i]], system.sliders
+        words = [system.contacts.word[j] for j in s.contact[s.first[i] : s.first[i + 1]]]
+        return " ".join([card.kind, card.label, *words])
+
+    return where
