@@ -1,0 +1,144 @@
+"""Decks of published problems, solved once each, and their answers by label."""
+
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import trunnion
+from trunnion.arrays import OPEN, CaseResult, Results
+from trunnion.cards import card_forces
+from trunnion.model import Model
+
+MODELS = Path(__file__).parents[2] / "models"
+
+
+class Answer:
+    """Numbers of one certified case, by label; forces act on the pipe, on the element."""
+
+    def __init__(self, result: CaseResult) -> None:
+        assert result.converged, result.cause
+        assert result.certificate is not None
+        assert result.certificate.passed, result.certificate
+        assert result.certificate.worst <= 1e-9
+        self.result = result
+        self.system = result.system
+        self.state = result.state
+
+    def node(self, label: str) -> int:
+        """Number of a node."""
+        if label in self.system.alias:
+            return self.system.alias[label]
+        return self.system.labels.index(label)
+
+    def u(self, label: str) -> np.ndarray:
+        """Displacement [m, rad]."""
+        n = self.node(label)
+        return self.state.u[n] + self.state.u_low[n]
+
+    def rigid_u(self, label: str) -> np.ndarray:
+        """Displacement corrected to rigid supports [m, rad]."""
+        return self.u(label) + self.result.penalty_u[self.node(label)]
+
+    def support(self, label: str) -> np.ndarray:
+        """Force and moment of all cards at a node on the pipe [N, N m]."""
+        forces = card_forces(self.result)
+        return sum(f for f, c in zip(forces, self.system.cards, strict=True) if c.label == label)
+
+    def load(self, label: str) -> np.ndarray:
+        """Force and moment of the pipe on its support, as the trade prints them [N, N m]."""
+        return -self.support(label)
+
+    def side(self, label: str, word: str) -> int:
+        """Side on which a contact is closed."""
+        return int(self.state.side[self.contact(label, word)])
+
+    def is_open(self, label: str, word: str) -> bool:
+        """Tell whether a contact is open."""
+        return self.side(label, word) == OPEN
+
+    def contact(self, label: str, word: str) -> int:
+        """Number of a contact."""
+        c = self.system.contacts
+        found = [
+            i
+            for i in range(len(c.node))
+            if self.system.cards[c.card[i]].label == label and c.word[i] == word
+        ]
+        assert len(found) == 1, f"{len(found)} contacts {word} at {label}"
+        return found[0]
+
+    def slider(self, label: str) -> int:
+        """Number of the slider at a node."""
+        cards = self.system.sliders.card
+        found = [i for i, c in enumerate(cards) if self.system.cards[c].label == label]
+        assert len(found) == 1, f"{len(found)} sliders at {label}"
+        return found[0]
+
+    def element(self, start: str, end: str) -> int:
+        """Number of the element between two nodes."""
+        ends = [self.node(start), self.node(end)]
+        found = [i for i, e in enumerate(self.system.ends.tolist()) if e == ends]
+        assert len(found) == 1, f"{len(found)} elements {start}-{end}"
+        return found[0]
+
+    def end(self, start: str, end: str, at: int = 0) -> np.ndarray:
+        """Force and moment on an element at its end 0 or 1 [N, N m], global."""
+        return self.state.end_force[self.element(start, end), at]
+
+    def tangent(self, start: str, end: str, at: int = 0) -> np.ndarray:
+        """Unit vector along an element at its end 0 or 1."""
+        e = self.element(start, end)
+        turned = at * self.system.angle[e]
+        return np.cos(turned) * self.system.axes[e, 0] + np.sin(turned) * self.system.axes[e, 1]
+
+
+class Run:
+    """A solved deck: `run["OPE"]` is the answer of a case."""
+
+    def __init__(self, model: Model) -> None:
+        self.model = model
+        self.results: Results = trunnion.solve(model)
+
+    def __getitem__(self, case: str) -> Answer:
+        return Answer(self.results[case])
+
+
+@cache
+def _read(name: str) -> Model:
+    return trunnion.read(MODELS / f"{name}.inp")
+
+
+@cache
+def _run(name: str) -> Run:
+    return Run(_read(name))
+
+
+@pytest.fixture(scope="session")
+def deck():
+    """Read a deck of models/ by name."""
+    return _read
+
+
+@pytest.fixture(scope="session")
+def run():
+    """Solve a deck of models/ by name."""
+    return _run
+
+
+@pytest.fixture(scope="session")
+def solve():
+    """Solve a model with some of its settings changed."""
+
+    def run_model(model: Model, **settings: object) -> Run:
+        return Run(replace(model, settings=replace(model.settings, **settings)))
+
+    return run_model
+
+
+@pytest.fixture(scope="session")
+def answer():
+    """Give the numbers of a case by label."""
+    return Answer

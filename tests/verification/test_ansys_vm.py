@@ -1,0 +1,88 @@
+"""ANSYS Verification Manual VM12, VM27, VM29 (decks of ansys-mapdl-core 0.74.1, MIT licence).
+
+Half a unit of the last printed digit unless a comment says why not.
+"""
+
+from math import cos, pi, radians, sin, sqrt
+
+import pytest
+
+LBF = 4.4482216152605
+INCH = 0.0254
+PSI = LBF / INCH**2
+AREA = INCH**2  # of VM27
+
+
+# VM12: Timoshenko, Strength of Materials I, 3rd ed., p. 299, prob. 2
+
+
+def test_vm12_principal_and_shear_stress(run):
+    force = run("vm12")["PUSH"].end("1", "2", 0)
+    z = pi / 32 * (4.67017 * INCH) ** 3
+    bending, shear = sqrt(force[3] ** 2 + force[4] ** 2) / z, force[5] / (2 * z)
+    radius = sqrt((bending / 2) ** 2 + shear**2)
+    assert (bending / 2 + radius) / PSI == pytest.approx(7527, abs=0.5)
+    assert radius / PSI == pytest.approx(3777, abs=0.5)
+
+
+# VM27: Harris, Introduction to Stress Analysis, p. 58, prob. 8
+
+
+def test_vm27_gap_closes(run):
+    assert not run("vm27")["HEAT"].is_open("2", "-(1,1,0)")
+
+
+def test_vm27_stress_corrected_to_rigid_supports(run):
+    heat = run("vm27")["HEAT"]
+    stop = heat.contact("2", "-(1,1,0)")
+    push = heat.state.reaction[stop] + heat.result.penalty_r[stop]
+    assert push @ (1.0, 1.0, 0.0) / sqrt(2) / AREA / PSI == pytest.approx(-6125, abs=0.5)
+
+
+def test_vm27_stress_with_the_penalty_springs(run):
+    # bar, wall and anchor in series: E (alpha dT - gap / L) / (1 + 2 (E A / L) / k)
+    k = 10.5e6 * PSI * AREA / (3 * INCH) / 1e12
+    heat = run("vm27")["HEAT"]
+    push = heat.state.reaction[heat.contact("2", "-(1,1,0)")]
+    assert push @ (1.0, 1.0, 0.0) / sqrt(2) / AREA == pytest.approx(
+        -6125 * PSI / (1 + 2 * k), rel=1e-9
+    )
+
+
+def test_vm27_thermal_strain(run):
+    assert run("vm27").results["HEAT"].loads.strain[0] == pytest.approx(0.00125, rel=1e-12)
+
+
+# VM29: Beer and Johnston, Vector Mechanics for Engineers, 1962, p. 283, prob. 8.2
+
+
+def drive(fx):
+    """Normal force and tangential need [N] of the block under fx, -100 lbf on 20 degrees."""
+    c, s = cos(radians(20)), sin(radians(20))
+    return LBF * (100 * c - fx * s), LBF * (100 * s + fx * c)
+
+
+def test_vm29_step_1_sticks(run):
+    from trunnion.arrays import STICK
+
+    stick = run("vm29")["STICK"]
+    i = stick.slider("1")
+    normal, need = drive(-5.7674)
+    assert stick.state.mode[i] == STICK
+    assert stick.state.normal[i] / LBF == pytest.approx(95.942, abs=0.0005)
+    assert stick.state.normal[i] == pytest.approx(normal, rel=1e-9)
+    friction = sqrt(sum(stick.state.friction[i] ** 2))
+    # the print has 28.783 for both steps; equilibrium of step 1 asks for 28.7824
+    assert friction / LBF == pytest.approx(28.783, abs=0.001)
+    assert friction == pytest.approx(need, rel=1e-7)
+
+
+def test_vm29_step_2_is_refused_by_name(run):
+    slide = run("vm29").results["SLIDE"]
+    normal, need = drive(-5.7672)
+    assert not slide.converged
+    assert slide.state is None
+    assert 0.3 * normal < need
+    assert "1" in slide.cause.split()[:6]
+    assert f"{need:.4g}"[:5] in slide.cause  # 128.0 N
+    assert f"{0.3 * normal:.4g}"[:5] in slide.cause

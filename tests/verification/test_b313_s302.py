@@ -1,0 +1,76 @@
+"""ASME B31.3-2006 Appendix S, example 2: tables S302.5.1 and S302.6.3.
+
+As transcribed in github reallaksh19/Advanced_Analysis, commit 5e2db18f (secondary source).
+Loads within 0.5 % (an independent rebuild: 0.2 %).
+"""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+OPE = {  # of the pipe on its supports: Fx, Fy [N], Mz [N.m] without sign
+    "10": (-26600, -14050, 27000),
+    "110": (26600, -14050, 27000),
+    "20": (None, -58900, None),
+    "120": (None, -58900, None),
+}
+SUS = {  # rest at 50 taken away: axial force, bending moment [kN, kN.m]
+    "10": (12.575, 3.995, ("10", "15", 0)),
+    "20": (12.575, 82.845, ("15", "20", 1)),
+    "30F": (34.985, 29.985, ("30N", "30F", 1)),
+    "50": (12.575, 62.885, ("45", "50", 1)),
+}
+
+
+@pytest.fixture(scope="module")
+def ope(run):
+    return run("b313_s302")["OPE"]
+
+
+@pytest.fixture(scope="module")
+def lifted(deck, solve):
+    """Weight and pressure on the line without its middle rest."""
+    model = deck("b313_s302")
+    left = [s for s in model.supports if s.node != "50"]
+    return solve(replace(model, supports=left))["SUS"]
+
+
+def test_rest_in_the_middle_lifts_off(ope):
+    assert ope.is_open("50", "+Y")
+    assert np.all(ope.load("50") == 0.0)
+    assert ope.u("50")[1] == pytest.approx(0.01898, abs=5e-6)  # independent rebuild: 18.98 mm
+
+
+def test_rest_in_the_middle_carries_when_cold(run):
+    assert not run("b313_s302")["SUS"].is_open("50", "+Y")
+
+
+@pytest.mark.parametrize("label", OPE)
+def test_operating_loads_on_supports(ope, label):
+    fx, fy, mz = OPE[label]
+    load = ope.load(label)
+    if fx is not None:
+        assert load[0] == pytest.approx(fx, rel=0.005)
+        assert abs(load[5]) == pytest.approx(mz, rel=0.005)
+    assert load[1] == pytest.approx(fy, rel=0.005)
+
+
+@pytest.mark.parametrize("label", SUS)
+def test_sustained_loads_without_the_middle_rest(lifted, label):
+    axial, bending, (start, end, at) = SUS[label]
+    force = lifted.end(start, end, at)
+    tangent = lifted.tangent(start, end, at)
+    assert abs(force[:3] @ tangent) == pytest.approx(1e3 * axial, rel=0.005)
+    assert abs(force[5]) == pytest.approx(1e3 * bending, rel=0.005)
+
+
+def test_sustained_loads_in_the_middle_of_the_upper_bend(lifted):
+    _, force = lifted.interior("40M")
+    assert abs(force[0]) == pytest.approx(24413, rel=0.005)
+    assert np.hypot(force[4], force[5]) == pytest.approx(32770, rel=0.005)
+
+
+def test_flexibility_factor_has_the_pressure_in_it(ope):
+    bend = ope.element("30N", "30F")
+    assert ope.system.flex[bend] == pytest.approx(9.36566, abs=5e-6)  # independent rebuild

@@ -1,0 +1,145 @@
+"""Pipe rack lines of 50, 200 and 1000 nodes against exact reference answers.
+
+tests/data/rack_N.npz: displacements [m, rad], normal force along the support's direction [N],
+friction and status, computed by an independent program to an equilibrium residual of 3e-16 of
+the largest force and re-checked in rational arithmetic by a third one.  Displacements within
+1e-9 m; a state may differ only within 1e-6 of its threshold, and then it is listed here.
+"""
+
+import sys
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from trunnion.arrays import OPEN, SLIP, STICK
+
+ROOT = Path(__file__).parents[2]
+sys.path.insert(0, str(ROOT / "benchmarks"))
+from rack import (  # noqa: E402
+    plan_rotation,
+    rack_model,
+    read_rack,
+    solve_rack,
+    support_forces,
+    turned,
+)
+
+SIZES = (50, 200, 1000)
+CASES = ("lin", "gap", "fric1", "fric10")
+ALL = [(n, case) for n in SIZES for case in CASES]
+LISTED: dict[tuple[int, str], list[int]] = {}  # supports whose state differs at its threshold
+
+
+@cache
+def rack(n):
+    return read_rack(ROOT / f"tests/data/rack_{n}.json.gz")
+
+
+@cache
+def reference(n):
+    return dict(np.load(ROOT / f"tests/data/rack_{n}.npz"))
+
+
+@cache
+def solved(n, case, angle=0.0):
+    return solve_rack(turned(rack(n), angle) if angle else rack(n), case)
+
+
+def displacements(result, n):
+    order = [result.system.labels.index(str(i)) for i in range(n)]
+    return (result.state.u + result.state.u_low)[order]
+
+
+@pytest.mark.parametrize(("n", "case"), ALL)
+def test_certificate(n, case):
+    result = solved(n, case)
+    assert result.converged, result.cause
+    assert result.certificate.passed
+    assert result.certificate.worst < 1e-9
+
+
+@pytest.mark.parametrize(("n", "case"), ALL)
+def test_displacements(n, case):
+    u = displacements(solved(n, case), n)
+    assert np.abs(u - reference(n)[f"{case}_u"])[:, :3].max() < 1e-9
+
+
+@pytest.mark.parametrize(("n", "case"), ALL)
+def test_support_forces(n, case):
+    normal, friction = support_forces(solved(n, case), rack(n))
+    want = reference(n)[f"{case}_normal"]
+    # a penalty of 1e12 N/m carries 1e-9 m as 1000 N of round-off only where it is stiff; the
+    # forces follow the pipe's own stiffness: 1e-9 of the largest
+    assert np.abs(normal - want).max() < 1e-9 * np.abs(want).max()
+    if f"{case}_friction" in reference(n):
+        want = reference(n)[f"{case}_friction"]
+        assert np.abs(friction - want).max() < 1e-8 * np.abs(want).max()
+
+
+def status(result, i):
+    """State of support i in the words of the reference."""
+    contact = int(np.flatnonzero(result.system.contacts.card == i)[0])
+    side = int(result.state.side[contact])
+    word = {OPEN: "open", -1: "minus", 1: "plus", 2: "minus"}[side]
+    slider = np.flatnonzero(result.system.sliders.card == i)
+    if len(slider) == 0 or side == OPEN:
+        return word
+    return word + {STICK: "+stick", SLIP: "+slip"}[int(result.state.mode[slider[0]])]
+
+
+@pytest.mark.parametrize(("n", "case"), ALL)
+def test_states(n, case):
+    result, want = solved(n, case), reference(n)[f"{case}_status"]
+    differ = [i for i in range(len(want)) if status(result, i) != want[i]]
+    assert differ == LISTED.get((n, case), [])
+
+
+@pytest.mark.parametrize("angle", [30.0, 45.0, 137.0])
+@pytest.mark.parametrize(("n", "case"), [(n, case) for n in (50, 200) for case in CASES])
+def test_turned_model_gives_the_turned_answer(n, case, angle):
+    result = solved(n, case, angle)
+    assert result.certificate.worst < 1e-9
+    u = displacements(result, n)[:, :3] @ plan_rotation(angle)
+    assert np.abs(u - reference(n)[f"{case}_u"][:, :3]).max() < 1e-9
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_turned_large_model(case):
+    result = solved(1000, case, 23.0)
+    assert result.certificate.worst < 1e-9
+    u = displacements(result, 1000)[:, :3] @ plan_rotation(23.0)
+    assert np.abs(u - reference(1000)[f"{case}_u"][:, :3]).max() < 1e-9
+
+
+@pytest.mark.parametrize("n", [50, 200])
+@pytest.mark.parametrize("case", ["gap", "fric1", "fric10"])
+def test_deck_says_the_same_as_the_model(run, n, case):
+    # the deck is in mm with rounded prints of exact numbers: same model to the last digits
+    deck = run(f"rack_{n}")[case.upper()]
+    u = np.array([deck.u(str(i)) for i in range(n)])
+    assert np.abs(u - reference(n)[f"{case}_u"])[:, :3].max() < 1e-9
+
+
+def test_linear_case_is_one_analysis_one_factorisation_one_solve():
+    work = solved(1000, "lin").work
+    assert (work["analyse"], work["factorise"], work["solve"]) == (1, 1, 1)
+
+
+def test_friction_case_needs_few_factorisations():
+    assert solved(1000, "fric1").work["factorise"] <= 60
+
+
+@pytest.mark.parametrize("n", [50, 200])
+def test_deck_is_what_its_script_writes(n, capsys):
+    import rack_deck
+
+    rack_deck.main(ROOT / f"tests/data/rack_{n}.json.gz")
+    assert capsys.readouterr().out == (ROOT / f"models/rack_{n}.inp").read_text()
+
+
+def test_rack_model_counts():
+    model = rack_model(rack(50), "fric10")
+    assert len(model.supports) == len(rack(50)["supports"]) + 2
+    assert model.cases[0].steps == 10

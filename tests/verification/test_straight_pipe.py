@@ -1,0 +1,46 @@
+"""A straight cantilever under every load: Code_Aster SSLL106, analytic references.
+
+github ehmoussi/code_aster, commit 34161d7; numbers only.  Half a unit of the last printed digit.
+The references clamp A rigidly, so movements are compared after the correction to rigid supports
+(with the anchor's 1e12 N/m the pull alone would be 5e-10 m too long).
+"""
+
+import numpy as np
+import pytest
+
+DX, DY, DZ, RX, RY, RZ = range(6)
+PRINTED = {
+    "PULL": {DX: "5.52621e-6", DY: "4.14466e-6"},
+    "SIDE": {DX: "-0.0526507", DY: "0.0702009", RZ: "0.0263253"},
+    "LIFT": {DZ: "0.0877511", RX: "0.0157952", RY: "-0.0210602"},
+    "TWIST": {RX: "0.01095134", RY: "0.0082135"},
+    "BENDY": {DZ: "-0.0263253", RX: "-0.00631808", RY: "0.00842411"},
+    "BENDZ": {DX: "-0.0157952", DY: "0.0210602", RZ: "0.0105301"},
+    "GRAV": {DX: "5.52621e-6", DY: "4.14466e-6", DZ: "-0.04646"},
+    "HEAT": {DX: "0.008", DY: "0.006"},
+}
+VALUES = [(case, i, text) for case, row in PRINTED.items() for i, text in row.items()]
+
+
+def half_unit(text):
+    """Half a unit of the last digit of a printed number."""
+    digits, _, power = text.partition("e")
+    decimals = len(digits.partition(".")[2])
+    return 0.5 * 10.0 ** (int(power or 0) - decimals)
+
+
+@pytest.mark.parametrize(("case", "component", "text"), VALUES)
+def test_movements_of_the_free_end(run, case, component, text):
+    u = run("straight_pipe")[case].rigid_u("B")
+    assert u[component] == pytest.approx(float(text), abs=1.001 * half_unit(text))
+
+
+def test_weight_bends_the_clamped_end(run):
+    moment = run("straight_pipe")["GRAV"].support("A")[3:]
+    assert np.linalg.norm(moment) == pytest.approx(1764.3, abs=0.05)
+
+
+def test_heat_makes_no_force(run):
+    case = run("straight_pipe")["HEAT"]
+    # round-off of E A alpha dT = 7.2e5 N
+    assert np.abs(case.end("A", "B")).max() < 1e-6
