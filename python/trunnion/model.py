@@ -6,6 +6,7 @@ stress and pressure in Pa.  `Place` says which line of which deck a record came 
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 SETS = tuple("123456789")
 INFINITE = float("inf")
@@ -294,3 +295,5 @@ class Model:
     forces: list[Force] = field(default_factory=list)
     accelerations: list[Acceleration] = field(default_factory=list)
     cases: list[Case | Comb] = field(default_factory=list)
+    # what cards leave behind for the cards that follow (deck.interpreter.Carried)
+    carried: Any = field(default=None, compare=False, repr=False)

@@ -1,0 +1,240 @@
+"""Grammar of CASE and COMB: sums of load sets, and expressions of case names.
+
+expression = [+|-] product {(+|-) product}
+product    = number * product | (expression) | ABS(expression) | U(x,y,z) | name
+"""
+
+import re
+from typing import Any, NoReturn
+
+from trunnion.deck.values import nearest
+from trunnion.model import SETS, Expression, Term
+
+MAX_NESTING = 50
+MAX_NAMES = 200  # in one expression
+ACCELERATIONS = ("U1", "U2", "U3")
+LOAD_SETS = (
+    *("W", "WNC", "WW", "H"),
+    *(letter + s for letter in "TPDF" for s in SETS),
+    *ACCELERATIONS,
+)
+FUNCTIONS = ("ABS",)
+_LATER = ("SRSS", "MAX", "MIN", "SIGNMAX", "SCALAR")
+RESERVED = frozenset(
+    (
+        *LOAD_SETS,
+        *(f"U{s}" for s in SETS),
+        *(f"WIND{s}" for s in SETS),
+        *("U", "WIND"),
+        *FUNCTIONS,
+        *_LATER,
+    )
+)
+
+_TOKEN = re.compile(
+    r"\s*(?:((?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:E[+-]?[0-9]+)?)|([A-Z_][A-Z0-9_.]*)|(\S))", re.I
+)
+
+
+class ExpressionFault(ValueError):
+    """A fault with its place in the text: characters `start` to `stop`."""
+
+    def __init__(self, message: str, start: int, stop: int) -> None:
+        super().__init__(message)
+        self.start, self.stop = start, stop
+
+
+class _Parser:
+    """Recursive descent over the tokens (kind, text, start, stop) of one expression."""
+
+    def __init__(self, text: str) -> None:
+        self.tokens: list[tuple[str, str, int, int]] = []
+        kinds = ("number", "name", "sign")
+        for match in _TOKEN.finditer(text.rstrip()):
+            i = match.lastindex or 3
+            self.tokens.append((kinds[i - 1], match[i].upper(), match.start(i), match.end(i)))
+        self.end = len(text.rstrip())
+        self.at = 0
+        self.depth = 0
+        self.names: list[tuple[str, int, int]] = []
+
+    def peek(self) -> str:
+        """Text of the next token, "" at the end."""
+        return self.tokens[self.at][1] if self.at < len(self.tokens) else ""
+
+    def fail(self, message: str, token: int | None = None) -> NoReturn:
+        """Raise a fault at a token, by default the next one."""
+        i = self.at if token is None else token
+        if i < len(self.tokens):
+            raise ExpressionFault(message, self.tokens[i][2], self.tokens[i][3])
+        raise ExpressionFault(message, max(0, self.end - 1), self.end)
+
+    def take(self, wanted: str) -> None:
+        """Step over a token that must be there."""
+        if self.peek() != wanted:
+            self.fail(f"{wanted} is missing before {self.peek() or 'the end'}")
+        self.at += 1
+
+    def sum(self) -> Expression:
+        """Read [+|-] product {(+|-) product}."""
+        self.depth += 1
+        if self.depth > MAX_NESTING:
+            self.fail(f"parentheses are nested more than {MAX_NESTING} deep")
+        sign = self.peek()
+        if sign in ("+", "-"):
+            self.at += 1
+        left = self.product()
+        if sign == "-":
+            left = ("neg", left)
+        while (sign := self.peek()) in ("+", "-") and sign:
+            self.at += 1
+            left = (sign, left, self.product())
+        self.depth -= 1
+        return left
+
+    def product(self) -> Expression:
+        """Read one product."""
+        if self.at >= len(self.tokens):
+            self.fail("a name is missing at the end")
+        kind, text, start, stop = self.tokens[self.at]
+        self.at += 1
+        if kind == "number":
+            if self.peek() != "*":
+                self.fail(f"{text} is a plain number; write {text}*NAME", self.at - 1)
+            self.at += 1
+            self.depth += 1
+            if self.depth > MAX_NESTING:
+                self.fail(f"factors are nested more than {MAX_NESTING} deep")
+            value = float(text)
+            if value - value != 0.0:
+                self.fail(f"{text} is not a finite number", self.at - 2)
+            found: Expression = ("*", value, self.product())
+            self.depth -= 1
+            return found
+        if text == "(":
+            found = self.sum()
+            self.take(")")
+            return found
+        if kind == "name" and self.peek() == "(":
+            return self.function(text)
+        if kind == "name":
+            self.names.append((text, start, stop))
+            if len(self.names) > MAX_NAMES:
+                self.fail(f"more than {MAX_NAMES} names", self.at - 1)
+            return ("case", text)
+        self.fail(f"{text} where a name or a number should stand", self.at - 1)
+
+    def function(self, text: str) -> Expression:
+        """Read ABS(expression) or U(x,y,z)."""
+        named = self.at - 1
+        self.at += 1
+        if text in FUNCTIONS:
+            inner = self.sum()
+            self.take(")")
+            return ("abs", inner)
+        if text == "U":
+            return self.vector()
+        if text in _LATER:
+            self.fail(f"{text} is not built yet; functions are {' '.join(FUNCTIONS)}", named)
+        self.fail(f"{text} is no function; functions are {' '.join(FUNCTIONS)}", named)
+
+    def vector(self) -> Expression:
+        """Read the rest of U(x,y,z)."""
+        start = self.at - 2
+        parts: list[float] = []
+        while len(parts) < 3:
+            sign = -1.0 if self.peek() == "-" else 1.0
+            if self.peek() in ("+", "-"):
+                self.at += 1
+            if self.at >= len(self.tokens) or self.tokens[self.at][0] != "number":
+                self.fail("U(x,y,z) takes three numbers, in g", start)
+            parts.append(sign * float(self.peek()))
+            self.at += 1
+            if len(parts) < 3:
+                self.take(",")
+        self.take(")")
+        if len(self.names) >= MAX_NAMES:
+            self.fail(f"more than {MAX_NAMES} names", start)
+        self.names.append(("U", self.tokens[start][2], self.tokens[self.at - 1][3]))
+        return ("vector", *parts)
+
+
+def parse(text: str) -> tuple[Expression, list[tuple[str, int, int]]]:
+    """Parse an expression; gives it and every name in it with its place in the text."""
+    parser = _Parser(text)
+    expression = parser.sum()
+    if parser.at < len(parser.tokens):
+        kind, word, *_ = parser.tokens[parser.at]
+        if word == ")":
+            parser.fail(") has no (")
+        hint = "; * binds a number on the left of a name" if word == "*" else ""
+        parser.fail(f"{word} where + or - should stand{hint}")
+    return expression, parser.names
+
+
+def terms(expression: Expression, factor: float = 1.0) -> list[Term]:
+    """Multiply a sum of load sets out to factors and names."""
+    match expression:
+        case ("case", str(name)):
+            return [Term(factor, name)]
+        case ("vector", float(x), float(y), float(z)):
+            return [Term(factor, "U", (x, y, z))]
+        case ("neg", tuple(a)):
+            return terms(a, -factor)
+        case ("*", float(n), tuple(a)):
+            return terms(a, factor * n)
+        case ("+", tuple(a), tuple(b)):
+            return terms(a, factor) + terms(b, factor)
+        case ("-", tuple(a), tuple(b)):
+            return terms(a, factor) + terms(b, -factor)
+    raise ValueError("ABS combines results; it stands on COMB cards only")
+
+
+def case_names(expression: Any) -> list[str]:
+    """Names of the cases in an expression, in order."""
+    if expression[0] == "case":
+        return [expression[1]]
+    return [n for part in expression[1:] if isinstance(part, tuple) for n in case_names(part)]
+
+
+def format_expression(expression: Any, inner: bool = False) -> str:
+    """Write an expression in one standard form, which parses to an equal one."""
+    kind, *parts = expression
+    if kind == "case":
+        return str(parts[0])
+    if kind == "abs":
+        return f"ABS({format_expression(parts[0])})"
+    if kind == "*":
+        return f"{format_factor(parts[0])}*{format_expression(parts[1], True)}"
+    if kind == "neg":
+        text = f"-{format_expression(parts[0], True)}"
+    else:
+        left = format_expression(parts[0], parts[0][0] == "neg")
+        text = f"{left} {kind} {format_expression(parts[1], True)}"
+    return f"({text})" if inner else text
+
+
+def format_factor(value: float) -> str:
+    """Shortest text that reads back to the same number: 2, 1.3."""
+    return f"{value:g}" if float(f"{value:g}") == value else repr(value)
+
+
+def format_terms(items: tuple[Term, ...]) -> str:
+    """Write the load sets of a case: W + P1 - 0.5*T1."""
+    text = ""
+    for term in items:
+        name = term.name
+        if term.vector is not None:
+            name = f"U({','.join(format_factor(x) for x in term.vector)})"
+        size = abs(term.factor)
+        part = name if size == 1.0 else f"{format_factor(size)}*{name}"
+        sign = "-" if term.factor < 0.0 else "+"
+        text += f" {sign} {part}" if text else part if sign == "+" else f"-{part}"
+    return text
+
+
+def unknown_set(word: str, cases: set[str]) -> str:
+    """Say that a name in a CASE is no load set, with the nearest one."""
+    if word.startswith("WIND"):
+        return f"{word}: wind is not built yet"
+    return f"{word} is no load set{nearest(word, {*LOAD_SETS, *cases})}"

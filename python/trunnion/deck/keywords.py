@@ -1,0 +1,388 @@
+"""THE keyword table: what cards there are, with positionals, keys, dimensions and meanings.
+
+The reader, the Python API, the writer's order of keys and the reference page come from it.
+"""
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from trunnion.model import SETS
+
+
+class Bounds(NamedTuple):
+    """Numbers that make sense: from `low` (itself not when `open_low`) to `high`."""
+
+    low: float = float("-inf")
+    high: float = float("inf")
+    open_low: bool = False
+
+    def __str__(self) -> str:
+        if self.high == float("inf"):
+            return f"> {self.low:g}" if self.open_low else f">= {self.low:g}"
+        return f"{self.low:g} to {self.high:g}"
+
+
+ANY = Bounds()
+POSITIVE = Bounds(0.0, open_low=True)
+NOT_NEGATIVE = Bounds(0.0)
+FRICTION = Bounds(0.0, 2.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Key:
+    """One KEY=VALUE.
+
+    kind : number, integer, choice, node, name, text, vector, gap or along.
+    dimension : of a number (see units), "" for one that the direction word decides.
+    default : what holds without the key, in words for the reference page.
+    """
+
+    name: str
+    meaning: str
+    dimension: str = "number"
+    kind: str = "number"
+    default: str = ""
+    bounds: Bounds = ANY
+    choices: tuple[str, ...] = ()
+    required: bool = False
+    card_wide: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Positional:
+    """One word without "=": kind node, name, set, choice, words (directions) or text."""
+
+    name: str
+    kind: str
+    meaning: str
+    choices: tuple[str, ...] = ()
+    optional: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Keyword:
+    """One kind of card."""
+
+    name: str
+    meaning: str
+    positionals: tuple[Positional, ...] = ()
+    keys: tuple[Key, ...] = ()
+    form: str = "fields"  # or: text, units, directions, equation
+    notes: tuple[str, ...] = ()
+    example: str = ""
+
+
+def _number(name: str, meaning: str, dimension: str, default: str = "", **more: object) -> Key:
+    return Key(name, meaning, dimension, default=default, **more)  # type: ignore[arg-type]
+
+
+def _choice(name: str, meaning: str, choices: tuple[str, ...], default: str = "") -> Key:
+    return Key(name, meaning, kind="choice", choices=choices, default=default)
+
+
+def _node(name: str, meaning: str = "node label") -> Positional:
+    return Positional(name, "node", meaning)
+
+
+ON_OFF = ("ON", "OFF")
+FRICTIONS = ("CONTACT", "RESULTANT")
+ITERATIONS = ("NEWTON", "STATUS")
+PRESSURE_SETS = tuple(f"P{s}" for s in SETS)
+TEMPERATURE_SETS = tuple(f"T{s}" for s in SETS)
+DIRECTIONS = tuple(s + r + a for r in ("", "R") for s in ("", "+", "-") for a in "XYZ")
+PIPE_DIRECTIONS = ("GUIDE", "LIMIT")
+DEGREES = ("DX", "DY", "DZ", "RX", "RY", "RZ")
+
+_OPERATION = (
+    *(_number(t, f"temperature of set {t}", "temperature", "TREF") for t in TEMPERATURE_SETS),
+    *(_number(p, f"pressure of set {p}", "pressure", "0") for p in PRESSURE_SETS),
+    _number("TREF", "temperature of installation", "temperature", "20 C"),
+)
+_RUN = (
+    *(_number(d, f"{d[1]} from first to second node", "length", "0") for d in ("DX", "DY", "DZ")),
+    _number("LENGTH", "length along DIR", "length", bounds=POSITIVE),
+    Key("DIR", "direction of the run, any length", kind="vector"),
+    Key("SECTION", "section from here on", kind="name", default="the current one"),
+    Key("MATERIAL", "material from here on", kind="name", default="the current one"),
+)
+_CNODE = Key(
+    "CNODE", "node that carries the support", kind="node", default="ground", card_wide=True
+)
+_NAME = Key("NAME", "name of the support in reports", kind="text", card_wide=True)
+_K = "stiffness of translations"
+_AXIS = Key("AXIS", "direction of the spring's own x", kind="vector", default="global axes")
+_SPRINGS = (
+    *(
+        _number(f"K{a}", f"stiffness along {a}", "stiffness", "0", bounds=NOT_NEGATIVE)
+        for a in "XYZ"
+    ),
+    *(
+        _number(f"KR{a}", f"stiffness about {a}", "rotational stiffness", "0", bounds=NOT_NEGATIVE)
+        for a in "XYZ"
+    ),
+)
+
+TABLE: tuple[Keyword, ...] = (
+    Keyword("TITLE", "Title of the model: the rest of the card.", form="text", example="TITLE Hot oil header"),
+    Keyword(
+        "UNITS",
+        "Units of all plain numbers of the deck; the first card but TITLE.",
+        form="units",
+        notes=("Without this card: m N Pa C.",),
+        example="UNITS mm kN bar C",
+    ),
+    Keyword(
+        "INCLUDE",
+        "Reads the cards of another file in this place.",
+        form="text",
+        notes=("The path counts from the file that names it. A file may not include itself.",),
+        example="INCLUDE materials.inp",
+    ),
+    Keyword(
+        "DEFAULT",
+        "Choices for the whole model, wherever the card stands.",
+        keys=(
+            _number("MU", "friction of every resting and directional support that states none", "number", "0", bounds=FRICTION),
+            _number("K", "stiffness k_p of rigid supports", "stiffness", "1e12 N/m", bounds=POSITIVE),
+            _number("KR", "stiffness of rigid rotational supports", "rotational stiffness", "1e12 N.m/rad", bounds=POSITIVE),
+            _number("KF", "elastic stick stiffness k_f", "stiffness", "1e8 N/m", bounds=POSITIVE),
+            _choice("SHEAR", "shear flexibility (Timoshenko, shear area A/2)", ON_OFF, "ON"),
+            _choice("UP", "axis against gravity", ("Y", "Z"), "Y"),
+            _number("G", "acceleration of gravity", "gravity", "9.80665 m/s2", bounds=POSITIVE),
+            _choice("STIFFEN", "pressure that stiffens bends", ("OFF", "MAX", *PRESSURE_SETS), "OFF"),
+            _choice("BOURDON", "pressure elongates pipe; and opens bends", ("OFF", "ELONGATION", "OPENING"), "OFF"),
+            _choice("FRICTION", "one slider a contact, or one a card", FRICTIONS, "CONTACT"),
+            _choice("ITERATION", "iteration of nonlinear cases", ITERATIONS, "NEWTON"),
+            _choice("EVENTS", "split a step where a gapped contact with friction closes", ON_OFF, "OFF"),
+        ),
+        example="DEFAULT MU=0.3",
+    ),
+    Keyword(
+        "MATERIAL",
+        "A material, current for the pipes that follow.",
+        (Positional("name", "name", "name of the material"),),
+        (
+            Key("GRADE", "row of the library of materials", kind="text"),
+            _number("E", "modulus of elasticity", "modulus", "of the GRADE", bounds=POSITIVE),
+            _number("NU", "Poisson's ratio", "number", "0.3", bounds=Bounds(0.0, 0.5)),
+            _number("ALPHA", "coefficient of thermal expansion", "expansion", "0, or of the GRADE"),
+            _number("DENSITY", "density", "density", "0, or of the GRADE", bounds=NOT_NEGATIVE),
+            _number("TREF", "temperature from which mean ALPHA of PROPERTY cards count", "temperature", "20 C"),
+        ),
+        notes=("MATERIAL with the name of an earlier card and no key makes that material current again.",),
+        example="MATERIAL A106B E=203GPa NU=0.3 ALPHA=11.7e-6 DENSITY=7850",
+    ),
+    Keyword(
+        "PROPERTY",
+        "Properties of a material at one temperature; the points make a table.",
+        (Positional("name", "name", "name of an earlier MATERIAL"),),
+        (
+            _number("T", "temperature of the point", "temperature", required=True),
+            _number("E", "modulus of elasticity at T", "modulus", bounds=POSITIVE),
+            _number("ALPHA", "mean coefficient of expansion from TREF to T", "expansion"),
+        ),
+        example="PROPERTY A106B T=200 E=191GPa ALPHA=12.2e-6",
+    ),
+    Keyword(
+        "SECTION",
+        "A pipe cross section, current for the pipes that follow.",
+        (Positional("name", "name", "name of the section"),),
+        (
+            _number("OD", "outside diameter", "length", bounds=POSITIVE),
+            _number("WALL", "wall thickness", "length", bounds=POSITIVE),
+            Key("NPS", "nominal size in inches, with SCH", kind="text"),
+            Key("DN", "nominal diameter in mm, with SCH", kind="text"),
+            Key("SCH", "schedule of the wall: 40, STD, XS, 10S", kind="text"),
+            _number("FLUID", "density of the contents", "density", "0", bounds=NOT_NEGATIVE),
+            _number("LINING", "thickness of the lining inside", "length", "0", bounds=NOT_NEGATIVE),
+            _number("LINING_DENSITY", "density of the lining", "density", "0", bounds=NOT_NEGATIVE),
+            _number("INSULATION", "thickness of the insulation", "length", "0", bounds=NOT_NEGATIVE),
+            _number("INSULATION_DENSITY", "density of the insulation", "density", "0", bounds=NOT_NEGATIVE),
+            _number("WEIGHT", "further weight per length", "line load", "0", bounds=NOT_NEGATIVE),
+            _number("CORROSION", "corrosion allowance, for code checks only", "length", "0", bounds=NOT_NEGATIVE),
+        ),
+        notes=(
+            "Either OD and WALL, or NPS (or DN) and SCH.",
+            "SECTION with the name of an earlier card and no key makes that section current again.",
+        ),
+        example="SECTION HDR NPS=10 SCH=40 FLUID=850",
+    ),
+    Keyword(
+        "OPERATE",
+        "Temperatures and pressures of the pipes that follow, until changed.",
+        keys=_OPERATION,
+        example="OPERATE T1=170 P1=12 TREF=20",
+    ),
+    Keyword(
+        "NODE",
+        "Coordinates of a node. Without any, the first pipe starts at the origin.",
+        (_node("node"),),
+        tuple(_number(a, f"coordinate {a}", "length", "0") for a in "XYZ"),
+        example="NODE 10 X=0 Y=2500 Z=0",
+    ),
+    Keyword(
+        "PIPE",
+        "A straight pipe; at a bend it runs to the intersection of the tangents.",
+        (_node("a", "first node"), _node("b", "second node")),
+        (*_RUN, *_OPERATION),
+        notes=(
+            "DX DY DZ, or LENGTH and DIR; with none of them both ends must have coordinates.",
+            "SECTION, MATERIAL and the keys of OPERATE hold for the pipes that follow, too.",
+        ),
+        example="PIPE 10 20 DX=6000",
+    ),
+    Keyword(
+        "RIGID",
+        "A stiff body between two nodes with its own weight: a valve, a flange.",
+        (_node("a", "first node"), _node("b", "second node")),
+        (
+            *_RUN,
+            _number("WEIGHT", "total weight of the body", "force", "0", bounds=NOT_NEGATIVE),
+            *_OPERATION,
+        ),
+        example="RIGID 40 50 DX=450 WEIGHT=2.1",
+    ),
+    Keyword(
+        "BEND",
+        "A bend where two pipes meet; gives the points 30N 30M 30F, and 30 is 30F.",
+        (
+            _node("node", "node at the intersection of the tangents"),
+            Positional("size", "choice", "1.5 or 1.0 nominal diameters", ("LONG", "SHORT"), True),
+        ),
+        (
+            _number("R", "radius of the centre line", "length", "LONG", bounds=POSITIVE),
+            _number("K", "flexibility factor", "number", "1.65/h", bounds=Bounds(1.0)),
+            Key("FLANGES", "ends with a flange", kind="integer", default="0", bounds=Bounds(0, 2)),
+        ),
+        example="BEND 30 R=381",
+    ),
+    Keyword(
+        "SPRING",
+        "Six stiffnesses between two nodes, or from one node to ground.",
+        (_node("a"), Positional("b", "node", "second node", optional=True)),
+        (*_SPRINGS, _AXIS),
+        notes=("A node that only springs reach stands where their other node stands.",),
+        example="SPRING 70 71 KX=5 KY=5 KZ=5",
+    ),
+    Keyword(
+        "MASS",
+        "A concentrated mass.",
+        (_node("node"),),
+        (
+            _number("M", "mass", "mass", bounds=POSITIVE),
+            _number("W", "weight, instead of M", "force", bounds=POSITIVE),
+        ),
+        example="MASS 25 M=120",
+    ),
+    Keyword(
+        "ANCHOR",
+        "Holds all six freedoms of a node.",
+        (_node("node"),),
+        (
+            _number("K", _K, "stiffness", "DEFAULT K", bounds=POSITIVE),
+            _number("KR", "stiffness of rotations", "rotational stiffness", "DEFAULT KR", bounds=POSITIVE),
+            _CNODE,
+            _NAME,
+        ),
+        example="ANCHOR 10",
+    ),
+    Keyword(
+        "SUPPORT",
+        "A restraint with one contact for each direction word.",
+        (_node("node"), Positional("directions", "words", "direction words, each with its keys")),
+        (
+            Key("GAP", "clearance to both sides, or minus,plus", "", kind="gap", default="0"),
+            _number("K", "stiffness", "", "DEFAULT K or KR", bounds=POSITIVE),
+            _number("KF", "elastic stick stiffness", "stiffness", "DEFAULT KF", bounds=POSITIVE),
+            _number("MU", "coefficient of friction", "number", "DEFAULT MU", bounds=FRICTION),
+            Key("ALONG", "pipe whose axis GUIDE and LIMIT follow: 30-40", kind="along"),
+            Key("FRICTION", "one slider a contact, or one a card", kind="choice", choices=FRICTIONS, default="DEFAULT FRICTION", card_wide=True),
+            _CNODE,
+            _NAME,
+        ),
+        form="directions",
+        notes=(
+            "Direction words: X Y Z hold both ways; +Y lets the pipe move up and stops it going "
+            "down, -Y the other way; RX RY RZ +RX ... hold rotations; GUIDE holds the pipe "
+            "sideways, LIMIT along its axis; (a,b,c) +(a,b,c) -(a,b,c) are skewed.",
+            "A key binds to the direction word on its left; before the first word it is common "
+            "to all of them. CNODE, FRICTION and NAME hold for the card wherever they stand.",
+        ),
+        example="SUPPORT 20 +Y GUIDE GAP=3",
+    ),
+    Keyword(
+        "HANGER",
+        "A spring hanger: vertical rate and cold load.",
+        (_node("node"),),
+        (
+            _number("RATE", "spring rate, 0 for constant effort", "stiffness", "0", bounds=NOT_NEGATIVE),
+            _number("LOAD", "cold load, upward on the pipe", "force", required=True, bounds=NOT_NEGATIVE),
+            _CNODE,
+            _NAME,
+        ),
+        example="HANGER 45 RATE=50N/mm LOAD=6.2",
+    ),
+    Keyword(
+        "FORCE",
+        "Force and moment at a node in set Fn; further cards of one set add up.",
+        (_node("node"), Positional("set", "set", "F1 to F9", tuple(f"F{s}" for s in SETS))),
+        (
+            *(_number(f"F{a}", f"force along {a}", "force", "0") for a in "XYZ"),
+            *(_number(f"M{a}", f"moment about {a}", "moment", "0") for a in "XYZ"),
+        ),
+        example="FORCE 60 F1 FY=-5",
+    ),
+    Keyword(
+        "DISPLACEMENT",
+        "Imposed displacement at a node in set Dn.",
+        (_node("node"), Positional("set", "set", "D1 to D9", tuple(f"D{s}" for s in SETS))),
+        (
+            *(_number(d, f"displacement along {d[1]}", "length", "free") for d in DEGREES[:3]),
+            *(_number(d, f"rotation about {d[1]}", "angle", "free") for d in DEGREES[3:]),
+        ),
+        notes=(
+            "It moves the base of the support at the node; without one it holds the node itself.",
+            "A component blank in all sets is free; given in one set, it is held at 0 in cases "
+            "that omit the set.",
+        ),
+        example="DISPLACEMENT 10 D1 DX=4 DY=2",
+    ),
+    Keyword(
+        "ACCELERATION",
+        "Uniform acceleration of set Un as a load in g, in the direction given.",
+        (Positional("set", "set", "U1 to U3", ("U1", "U2", "U3")),),
+        tuple(_number(a, f"part along {a}", "in g", "0") for a in "XYZ"),
+        example="ACCELERATION U1 X=0.3",
+    ),
+    Keyword(
+        "CASE",
+        "A load case: a sum of load sets, solved.",
+        (Positional("name = [n*]SET {+|- [n*]SET}", "equation", "sum of load sets"),),
+        (
+            Key("FROM", "case whose end is the start (history of friction)", kind="name"),
+            Key("STEPS", "equal load steps", kind="integer", default="1", bounds=Bounds(1, 100000)),
+            _number("MUX", "factor on every coefficient of friction", "number", "1", bounds=NOT_NEGATIVE),
+            _choice("E", "modulus of the cold or of the hot pipe", ("COLD", "HOT"), "COLD"),
+            _choice("EVENTS", "split steps where gapped contacts close", ON_OFF, "DEFAULT EVENTS"),
+            _choice("ITERATION", "iteration of this case", ITERATIONS, "DEFAULT ITERATION"),
+            _choice("SNUBBERS", "state of snubbers", ("FREE", "LOCKED"), "FREE"),
+        ),
+        form="equation",
+        notes=(
+            "Load sets: W weight, WNC weight without contents, WW weight with water, H cold load of "
+            "hangers, T1-T9, P1-P9, D1-D9, F1-F9, U1-U3, U(x,y,z). They are never case names.",
+            "CASE with names of cases only is read as COMB.",
+            "U needs SNUBBERS=FREE or LOCKED.",
+        ),
+        example="CASE OPE = W + P1 + T1",
+    ),
+    Keyword(
+        "COMB",
+        "A combination of the results of cases: + - n* ( ) and ABS(...).",
+        (Positional("name = expression", "equation", "expression of names of cases"),),
+        form="equation",
+        example="COMB EXP = OPE - SUS",
+    ),
+)  # fmt: skip
+
+KEYWORDS: dict[str, Keyword] = {keyword.name: keyword for keyword in TABLE}

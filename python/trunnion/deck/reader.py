@@ -1,0 +1,193 @@
+"""Decks to models: every card to a record, every record to the model, all errors at once."""
+
+import os
+from typing import Any
+
+from trunnion.deck import units as un
+from trunnion.deck.cards import Card, Deck, cards_of, read_cards
+from trunnion.deck.checks import check
+from trunnion.deck.fields import (
+    Fields,
+    fields_of,
+    read_directions,
+    read_equation,
+    read_fields,
+)
+from trunnion.deck.interpreter import Carried, Interpreter, give_up
+from trunnion.deck.keywords import KEYWORDS
+from trunnion.deck.markers import show, tidy
+from trunnion.deck.record import Fault, Mark, Record
+from trunnion.deck.values import nearest
+from trunnion.errors import DeckError, Problem
+from trunnion.model import Model, Place, Units
+
+_FIRST = ("TITLE", "UNITS", "DEFAULT")
+
+
+def read(path: str | os.PathLike[str]) -> Model:
+    """Read a deck.
+
+    Raises
+    ------
+    DeckError : with every problem of the deck, its file and line.
+    """
+    return _read(read_cards(path))
+
+
+def read_text(text: str, file: str = "<text>") -> Model:
+    """Read a deck given as text; `file` stands in the errors."""
+    return _read(cards_of(text, file))
+
+
+def _read(deck: Deck) -> Model:
+    """Make the model, or raise all problems."""
+    reading = _Reading(deck)
+    reading.run()
+    if reading.faults or deck.refusals:
+        raise DeckError(_problems(deck, reading.faults))
+    return reading.model
+
+
+class _Reading:
+    """One reading of a deck: model so far, and faults."""
+
+    def __init__(self, deck: Deck) -> None:
+        self.deck = deck
+        self.model = Model()
+        self.faults: list[Fault] = []
+        self.carried = Carried()
+        self.interpreter = Interpreter(self.model, self.carried, self.faults)
+
+    def run(self) -> None:
+        """Read UNITS and DEFAULT, which hold for the whole deck, then all other cards."""
+        cards = self.deck.cards
+        words = [card.text.split(None, 1)[0].upper() for card in cards]
+        self._units(
+            [c for c, word in zip(cards, words, strict=True) if word in ("UNITS", "TITLE")], words
+        )
+        fields = fields_of(self.model.units)
+        for card, word in zip(cards, words, strict=True):
+            if word == "DEFAULT":
+                self._card(card, word, fields)
+        for card, word in zip(cards, words, strict=True):
+            if word not in _FIRST:
+                self._card(card, word, fields)
+        broken = self.carried.broken
+        if self.deck.refusals:
+            return  # lines or files are missing: what needs the whole would be misleading
+        self.faults += check(self.model, broken)
+        self.model.carried = self.carried
+
+    def _units(self, cards: list[Card], words: list[str]) -> None:
+        """Read the TITLE and UNITS cards; UNITS stands before all others."""
+        seen: dict[str, Place] = {}
+        for card in cards:
+            word, _, rest = card.text.partition(" ")
+            word, rest = word.upper(), rest.strip()
+            if word in seen:
+                self._fault(card, word, f"there is one at {seen[word]} already", 0)
+                continue
+            seen[word] = card.place
+            if word == "TITLE":
+                self.model.title = rest
+            else:
+                self._unit_card(card, rest.split())
+        if "UNITS" in words and any(
+            w not in ("UNITS", "TITLE") for w in words[: words.index("UNITS")]
+        ):
+            card = self.deck.cards[words.index("UNITS")]
+            self._fault(card, "UNITS", "this card must be the first but TITLE", 0)
+
+    def _unit_card(self, card: Card, names: list[str]) -> None:
+        """Read UNITS length force pressure temperature."""
+        kinds = ("length", "force", "pressure", "temperature")
+        tables = (un.LENGTHS, un.FORCES, un.PRESSURES, un.TEMPERATURES)
+        found: dict[str, str] = {}
+        for i, (kind, table) in enumerate(zip(kinds, tables, strict=True)):
+            if i >= len(names):
+                self._fault(
+                    card, "UNITS", f"unit of {kind} missing: one of {' '.join(table)}", None
+                )
+                continue
+            spelled = {name.lower(): name for name in table}
+            if names[i].lower() in spelled:
+                found[kind] = spelled[names[i].lower()]
+            else:
+                self._fault(
+                    card, "UNITS", f"{kind} {names[i]} is not one of {' '.join(table)}", i + 1
+                )
+        if len(names) > 4:
+            self._fault(card, "UNITS", f"word {names[4]} is not expected; four units are", 5)
+        self.model.units = Units(**found)
+
+    def _fault(self, card: Card, head: str, message: str, mark: Mark) -> None:
+        """Note a fault of a card that makes no record."""
+        self.faults.append(Fault(card.place, head, message, mark))
+
+    def _card(self, card: Card, word: str, fields: Fields) -> None:
+        """Read one card and apply it."""
+        known = KEYWORDS.get(word)
+        if known is None:
+            self._unknown(card, word)
+            return
+        record = Record(word, Place(card.file, card.line))
+        before = len(self.faults)
+
+        def complain(message: str, mark: Mark) -> None:
+            self.faults.append(Fault(record.place, record.head, message, mark))
+
+        text = card.text
+        if known.form == "equation":
+            start = len(word) + len(text[len(word) :]) - len(text[len(word) :].lstrip())
+            names = read_equation(record, text[start:], start, fields, complain)
+            if len(self.faults) > before:
+                self.carried.broken.update(name for name, *_ in names)
+        else:
+            if " =" in text or "= " in text or ", " in text or " ," in text or "(" in text:
+                text = tidy(text)
+            items: list[Any] = text.split()
+            del items[0]
+            for i, item in enumerate(items):
+                if "=" in item:
+                    key, _, value = item.partition("=")
+                    items[i] = (key.upper(), value)
+            if known.form == "directions":
+                read_directions(record, items, fields, complain)
+            else:
+                read_fields(record, items, fields, complain)
+                for key in known.keys:
+                    if key.required and key.name not in record.keys:
+                        complain(f"{key.name}= is missing", None)
+        if len(self.faults) == before:
+            self.interpreter.apply(record)
+        if len(self.faults) > before:
+            give_up(record, self.carried)
+
+    def _unknown(self, card: Card, word: str) -> None:
+        """Refuse a card that no keyword fits, and its words elsewhere with it."""
+        self.carried.broken.update(tidy(card.text).upper().replace("=", " ").split())
+        if "=" in word:
+            word = word.partition("=")[0]
+        hint = nearest(word, KEYWORDS)
+        also = hint or f" (keywords: {' '.join(KEYWORDS)})"
+        self._fault(card, word, f"unknown keyword{also}", 0)
+
+
+def _problems(deck: Deck, faults: list[Fault]) -> list[Problem]:
+    """Put faults in the deck's order and draw their markers."""
+    order = {(card.file, card.line): i for i, card in enumerate(deck.cards)}
+    cards = {(card.file, card.line): card for card in deck.cards}
+    found: list[tuple[int, Problem]] = []
+    for i, refusal in enumerate(deck.refusals):
+        marker = show(refusal.card, None) if refusal.card else ""
+        found.append((-len(deck.refusals) + i, Problem(refusal.place, refusal.message, marker)))
+    for fault in faults:
+        place, key = fault.place, (fault.place.file, fault.place.line)
+        if not place.file:  # a fault of the whole deck
+            place = Place(deck.file, max(1, deck.last - 1))
+        card = cards.get(key)
+        marker = show(card, fault.mark) if card and len(found) < 1000 else ""
+        text = f"{fault.head}: {fault.message}" if fault.head else fault.message
+        found.append((order.get(key, len(order)), Problem(place, text, marker)))
+    found.sort(key=lambda pair: pair[0])
+    return list(dict.fromkeys(problem for _, problem in found))

@@ -1,0 +1,52 @@
+"""A record: one card or one call of the Python API, with its values in SI."""
+
+from dataclasses import dataclass, field
+from typing import Any
+
+from trunnion.model import Place
+
+
+@dataclass(slots=True)
+class Word:
+    """One direction word of a SUPPORT and the keys bound to it."""
+
+    text: str
+    vector: tuple[float, float, float] | None
+    keys: dict[str, Any]
+
+
+@dataclass(slots=True)
+class Record:
+    """What the deck and the Python API both produce; the interpreter makes the Model of it.
+
+    args : positionals, upper case.
+    keys : values in SI (temperatures in C): float, str, int or tuple by the kind of key.
+    words : direction words of a SUPPORT.
+    expression : of CASE and COMB, parsed.
+    """
+
+    keyword: str
+    place: Place
+    args: list[str] = field(default_factory=list)
+    keys: dict[str, Any] = field(default_factory=dict)
+    words: list[Word] = field(default_factory=list)
+    expression: Any = None
+
+    @property
+    def head(self) -> str:
+        """Keyword and name or labels, for errors."""
+        return " ".join([self.keyword, *self.args])
+
+
+# What an error points at: index of a word of the card, its text, or "KEY="
+Mark = int | str | tuple[int, int] | None
+
+
+@dataclass(frozen=True, slots=True)
+class Fault:
+    """One fault before its place on the card is looked up."""
+
+    place: Place
+    head: str
+    message: str
+    mark: Mark = None

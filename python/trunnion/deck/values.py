@@ -1,0 +1,178 @@
+"""Texts to values: numbers with suffixes, vectors, gaps, labels, choices."""
+
+import re
+from collections.abc import Callable, Mapping
+from difflib import get_close_matches
+from typing import Any
+
+from trunnion.deck.keywords import ANY, Key
+from trunnion.deck.units import Scale, SuffixError, scale_of
+
+Vector = tuple[float, float, float]
+
+_NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
+_LABEL = re.compile(r"[A-Z0-9][A-Z0-9_.]{0,31}")
+_NAME = re.compile(r"[^\s=!&(),\"']{1,64}")
+
+
+class ValueFault(ValueError):
+    """A value that cannot be read, with what would be right."""
+
+
+def nearest(word: str, words: Mapping[str, object] | tuple[str, ...] | set[str]) -> str:
+    """Hint at the valid word nearest to `word`: "; nearest: GAP", or nothing."""
+    if len(words) > 20000:  # a search would take longer than reading the deck
+        words = {w for w in words if w[:2] == word[:2] and abs(len(w) - len(word)) < 3}
+    found = get_close_matches(word, words, n=1, cutoff=0.5)
+    return f"; nearest: {found[0]}" if found else ""
+
+
+def number(text: object, scale: Scale, dimension: str) -> float:
+    """Value in SI of a number with or without suffix."""
+    if isinstance(text, str):
+        try:
+            if "_" in text:
+                raise ValueError
+            value = scale(float(text))
+        except ValueError:
+            value = _suffixed(text, dimension)
+    elif isinstance(text, bool) or not isinstance(text, (int, float)):
+        try:
+            value = scale(float(text))  # type: ignore[arg-type] # numpy's numbers
+        except (TypeError, ValueError):
+            raise ValueFault(f"{text!r} is not a number") from None
+    else:
+        value = scale(float(text))
+    if value - value != 0.0:
+        raise ValueFault(f"{text} is not a finite number")
+    return value
+
+
+def _suffixed(text: str, dimension: str) -> float:
+    """Value in SI of "12bar"."""
+    text = text.strip()
+    found = _NUMBER.match(text)
+    if found is None:
+        raise ValueFault(f"{text or 'nothing'} is not a number")
+    suffix = text[found.end() :].strip()
+    if not suffix:
+        return scale_of("", dimension)(float(found[0])) if dimension == "number" else float("nan")
+    try:
+        return scale_of(suffix, dimension)(float(found[0]))
+    except SuffixError as error:
+        raise ValueFault(str(error)) from None
+
+
+def vector(value: object) -> Vector:
+    """Three numbers of "(a,b,c)" or of a sequence; not all zero."""
+    parts = (
+        value.strip().removeprefix("(").removesuffix(")").split(",")
+        if isinstance(value, str)
+        else value
+    )
+    try:
+        x, y, z = (number(p, float, "number") for p in parts)  # type: ignore[attr-defined]
+    except (TypeError, ValueError):
+        raise ValueFault(f"{value} is not a direction (a,b,c) of three numbers") from None
+    if x == y == z == 0.0:
+        raise ValueFault(f"direction {value} has no length")
+    return x, y, z
+
+
+def gap(value: object, scale: Scale, dimension: str) -> tuple[float, float]:
+    """Clearances minus and plus of "a" or "a,b"."""
+    parts = value.split(",") if isinstance(value, str) else value
+    if not isinstance(parts, (list, tuple)):
+        parts = (parts,)
+    if len(parts) not in (1, 2):
+        raise ValueFault(
+            f"{value} has {len(parts)} values; GAP=a is both sides, GAP=a,b minus,plus"
+        )
+    both = [number(p, scale, dimension) for p in parts]
+    if min(both) < 0.0:
+        raise ValueFault(f"gap {parts[0] if both[0] < 0.0 else parts[-1]} is negative")
+    return both[0], both[-1]
+
+
+def label(value: object) -> str:
+    """Node label: letters, digits, "_" and ".", upper case."""
+    text = str(value).strip().upper()
+    if _LABEL.fullmatch(text) is None:
+        raise ValueFault(f"{value} is no node label (letters, digits, _ and . , up to 32)")
+    return text
+
+
+def name(value: object) -> str:
+    """Name of a material, section or case, upper case."""
+    text = str(value).strip().upper()
+    if _NAME.fullmatch(text) is None:
+        raise ValueFault(f"{value} is no name (no spaces, quotes, commas, = ! & or parentheses)")
+    return text
+
+
+def text(value: object) -> str:
+    """Word kept as written."""
+    found = str(value).strip()
+    if _NAME.fullmatch(found) is None:
+        raise ValueFault(f"{value} is no name (no spaces, quotes, commas, = ! & or parentheses)")
+    return found
+
+
+def choice(value: object, choices: tuple[str, ...]) -> str:
+    """One of some words."""
+    found = ("OFF", "ON")[value] if isinstance(value, bool) else str(value).strip().upper()
+    if found not in choices:
+        raise ValueFault(f"{value} is not one of {' '.join(choices)}")
+    return found
+
+
+def integer(value: object) -> int:
+    """Whole number."""
+    found = number(value, float, "number")
+    if found != int(found):
+        raise ValueFault(f"{value} is not a whole number")
+    return int(found)
+
+
+def along(value: object) -> str:
+    """Pipe of ALONG=30-40, given as text or as two labels."""
+    ends = value.split("-") if isinstance(value, str) else value
+    if not isinstance(ends, (list, tuple)) or len(ends) != 2:
+        raise ValueFault(f"{value} is no pipe; write ALONG=30-40")
+    return f"{label(ends[0])}-{label(ends[1])}"
+
+
+Reader = Callable[[Any], Any]
+
+
+def reader_of(key: Key, scales: dict[str, Scale], dimension: str = "") -> Reader:
+    """Build the function that reads the value of one key under one UNITS card."""
+    dimension = key.dimension or dimension
+    bounds = key.bounds
+    match key.kind:
+        case "number":
+            return _number_reader(key, scales[dimension], dimension)
+        case "integer":
+            return lambda value: _within(integer(value), value, key)
+        case "choice":
+            return lambda value: choice(value, key.choices)
+        case "gap":
+            return lambda value: gap(value, scales[dimension], dimension)
+    if bounds is not ANY:
+        raise ValueError(f"bounds on {key.name}")
+    return {"node": label, "name": name, "text": text, "vector": vector, "along": along}[key.kind]
+
+
+def _number_reader(key: Key, scale: Scale, dimension: str) -> Reader:
+    """Build the reader of a number; the common case, without suffix and bounds, is short."""
+    if key.bounds is ANY:
+        return lambda value: number(value, scale, dimension)
+    return lambda value: _within(number(value, scale, dimension), value, key)
+
+
+def _within(found: float, value: object, key: Key) -> Any:
+    """Check the bounds of a key."""
+    low, high, open_low = key.bounds
+    if found < low or found > high or (open_low and found == low):
+        raise ValueFault(f"{key.name}={value} must be {key.bounds}")
+    return found
