@@ -6,9 +6,13 @@ described at its second end ("tip"), fixed at the first: six deformations and si
 """
 
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from trunnion.tables import Table
 
 F8 = NDArray[np.float64]
 I4 = NDArray[np.int32]
@@ -239,6 +243,27 @@ class CaseResult:
     warnings: tuple[str, ...] = ()
     history: list[dict[str, object]] = field(default_factory=list)
     work: dict[str, int] = field(default_factory=dict)
+
+    @property
+    def displacements(self) -> "Table":
+        """Displacements by node label."""
+        from trunnion.tables import displacements
+
+        return displacements(self)
+
+    @property
+    def supports(self) -> "Table":
+        """Support forces on the pipe and states, by node label."""
+        from trunnion.tables import supports
+
+        return supports(self)
+
+    @property
+    def elements(self) -> "Table":
+        """End forces on the elements, by name (10-20)."""
+        from trunnion.tables import elements
+
+        return elements(self)
 
 
 @dataclass(slots=True)

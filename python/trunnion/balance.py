@@ -1,0 +1,60 @@
+"""Sums over the whole system: applied loads, support reactions, and end forces in local axes."""
+
+import numpy as np
+
+from trunnion.arrays import ARC, F8, CaseResult, Loads, System
+from trunnion.deformation import load_moment
+from trunnion.supports import solved
+
+
+def load_sum(system: System, loads: Loads) -> F8:
+    """(6,) sum of the applied loads, moments about the origin [N, N m].
+
+    Hanger loads are support forces and not in it.
+    """
+    weight = loads.dist * system.length[:, None]
+    start = system.xyz[system.ends[:, 0]]
+    about = np.cross(start, weight) + load_moment(system, loads.dist.T).T
+    total: F8 = loads.nodal.sum(axis=0)
+    total[:3] += weight.sum(axis=0)
+    total[3:] += np.cross(system.xyz, loads.nodal[:, :3]).sum(axis=0) + about.sum(axis=0)
+    return total
+
+
+def reaction_sum(case: CaseResult) -> F8:
+    """(6,) sum of the support forces on the pipe, moments about the origin [N, N m].
+
+    A support on another node (CNODE) pushes both ways and cancels.
+    """
+    system, state = case.system, solved(case)
+    contacts, sliders = system.contacts, system.sliders
+    total = np.zeros(6)
+    for force, node, cnode, turning in (
+        (state.reaction, contacts.node, contacts.cnode, contacts.rotational),
+        (state.friction, sliders.node, sliders.cnode, np.zeros(len(sliders.mu), bool)),
+    ):
+        grounded = cnode < 0
+        total[3:] += force[turning & grounded].sum(axis=0)
+        push = np.where(turning[:, None], 0.0, force)
+        total[:3] += push[grounded].sum(axis=0)
+        total[3:] += np.cross(system.xyz[node], push).sum(axis=0)
+        total[3:] -= np.cross(system.xyz[cnode[~grounded]], push[~grounded]).sum(axis=0)
+    return total
+
+
+def end_axes(system: System) -> F8:
+    """(n_elem, 2, 3, 3) rows ex ey ez at both ends; ex is the pipe's tangent there."""
+    axes = np.repeat(system.axes[:, None], 2, axis=1)
+    c, s = np.cos(system.angle)[:, None], np.sin(system.angle)[:, None]
+    arc = (system.kind == ARC)[:, None]
+    ex, ey = system.axes[:, 0], system.axes[:, 1]
+    axes[:, 1, 0] = np.where(arc, c * ex + s * ey, ex)
+    axes[:, 1, 1] = np.where(arc, c * ey - s * ex, ey)
+    return axes
+
+
+def local_forces(system: System, end_force: F8) -> F8:
+    """(n_elem, 2, 6) end forces and moments on the elements in the axes of each end."""
+    split = end_force.reshape(-1, 2, 2, 3)
+    turned: F8 = np.einsum("eaij,eafj->eafi", end_axes(system), split)
+    return turned.reshape(-1, 2, 6)

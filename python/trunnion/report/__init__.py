@@ -1,0 +1,1 @@
+"""Reports: everything that formats numbers for people and files."""

@@ -1,0 +1,106 @@
+"""The JSON report: SI, support forces on the pipe, element forces on the element.
+
+Every number is written with all its digits, one node, support or element a line; the same
+results give the same bytes.
+"""
+
+from collections.abc import Mapping
+
+from trunnion.arrays import F8, CaseResult, Certificate, Results, System
+from trunnion.balance import load_sum, local_forces, reaction_sum
+from trunnion.report.encode import dump, finite, lines, listing, records, rows, words
+from trunnion.report.json_supports import support_entries
+from trunnion.supports import cause_of, is_good, solved
+from trunnion.tables import element_ids
+
+
+def json_report(results: Results) -> bytes:
+    """Write the whole file: schema, cases, warnings, work."""
+    parts = {
+        "schema": "1",
+        "title": dump(results.title),
+        "cases": lines({name: _case(case) for name, case in results.cases.items()}),
+        "warnings": dump(list(results.warnings)),
+        "work": dump(results.work),
+    }
+    return (lines(parts) + "\n").encode()
+
+
+def _case(case: CaseResult) -> str:
+    good = is_good(case)
+    parts = {
+        "kind": dump(case.kind),
+        "text": dump(case.text),
+        "converged": dump(good),
+        "cause": dump(None if good else cause_of(case)),
+        "certificate": dump(_certificate(case.certificate)),
+        "frozen": dump(list(case.frozen)),
+        "warnings": dump(list(case.warnings)),
+        "work": dump(case.work),
+    }
+    return lines(parts | _numbers(case) if good else parts)
+
+
+def _numbers(case: CaseResult) -> dict[str, str]:
+    """Everything that only a certified case may show."""
+    system, state = case.system, solved(case)
+    effect = {name: finite(value) for name, value in case.penalty_effect.items()}
+    parts = {"penalty_effect": dump(effect)}
+    if case.loads is not None:
+        parts["loads"] = _sum(load_sum(system, case.loads))
+    parts["reactions"] = _sum(reaction_sum(case))
+    parts["nodes"] = _by_node(system, state.u)
+    if state.u_low.any():
+        parts["nodes_low"] = _by_node(system, state.u_low)
+    parts["supports"] = support_entries(case)
+    parts["elements"] = _elements(case)
+    return parts
+
+
+def _sum(total: F8) -> str:
+    """Write a resultant; the moment is about the origin."""
+    return dump({"force": total[:3].tolist(), "moment": total[3:].tolist()})
+
+
+def _by_node(system: System, values: F8) -> str:
+    """Write one line a node, then one for each further name of a node."""
+    pieces = rows(values)
+    named = dict(zip(system.labels, pieces, strict=True))
+    for label, node in system.alias.items():
+        named.setdefault(label, pieces[node])
+    return lines(named)
+
+
+def _elements(case: CaseResult) -> str:
+    """Write one line an element; local axes have x along the pipe's tangent at that end."""
+    parts, force = case.system.parts, solved(case).end_force
+    local = local_forces(case.system, force)
+    fields = {
+        "id": words(element_ids(parts)),
+        "from": words(part.start for part in parts),
+        "to": words(part.end for part in parts),
+        "type": words(part.type for part in parts),
+        "force_from": rows(force[:, 0]),
+        "force_to": rows(force[:, 1]),
+        "local_from": rows(local[:, 0]),
+        "local_to": rows(local[:, 1]),
+    }
+    return listing(records(fields))
+
+
+def _certificate(certificate: Certificate | None) -> Mapping[str, object] | None:
+    if certificate is None:
+        return None
+    found: dict[str, object] = {
+        "passed": certificate.passed,
+        "worst": finite(certificate.worst),
+        "where": certificate.where,
+        "inherited": certificate.inherited,
+    }
+    for item in certificate.items:
+        found.setdefault(item.name, finite(item.value))
+    found["items"] = [
+        {"name": item.name, "value": finite(item.value), "where": item.where}
+        for item in certificate.items
+    ]
+    return found

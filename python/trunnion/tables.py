@@ -1,0 +1,138 @@
+"""Results by label: small tables for the Python API, with no other library behind them.
+
+results["OPE"].displacements["30M"]["uy"]
+results["OPE"].supports["20"]["state"]
+results["OPE"].elements.column("axial_from")
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from trunnion.arrays import F8, CaseResult, Part
+from trunnion.balance import local_forces
+from trunnion.names import UnknownName
+from trunnion.supports import card_forces, card_friction, card_ids, card_states, solved
+
+Cell = float | str | None
+Words = Mapping[str, Sequence[str | None]]
+FORCES = ("fx", "fy", "fz", "mx", "my", "mz")
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """Rows with labels, numbers in SI and some columns of words.
+
+    Parameters
+    ----------
+    labels : one a row, each once.
+    columns, units : (m,) names and units of the numbers.
+    values : (n, m) numbers.
+    words : further columns of text, such as a support's state.
+    index : row of every label, and of the other names of rows (30 for 30F).
+    """
+
+    labels: tuple[str, ...]
+    columns: tuple[str, ...]
+    units: tuple[str, ...]
+    values: F8
+    words: Words
+    index: Mapping[str, int]
+
+    def __len__(self) -> int:
+        return len(self.labels)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.labels)
+
+    def __contains__(self, label: object) -> bool:
+        return label in self.index
+
+    def __getitem__(self, label: str) -> dict[str, Cell]:
+        """Row of a label: its words and numbers by column."""
+        i = self.row(label)
+        row: dict[str, Cell] = {name: column[i] for name, column in self.words.items()}
+        row.update(zip(self.columns, self.values[i].tolist(), strict=True))
+        return row
+
+    def row(self, label: str) -> int:
+        """Give the number of a label's row; labels are upper case, as in the deck."""
+        row = self.index.get(str(label).upper())
+        if row is None:
+            raise UnknownName("label", str(label), self.index)
+        return row
+
+    def column(self, name: str) -> F8:
+        """(n,) numbers of a column."""
+        return self.values[:, self.columns.index(name)]
+
+    def __str__(self) -> str:
+        """Print the rows in columns, for a look at the prompt."""
+        heads = ["", *self.words, *self.columns]
+        rows = [heads, ["", *("" for _ in self.words), *(f"[{unit}]" for unit in self.units)]]
+        for i, label in enumerate(self.labels):
+            words = [str(column[i] or "") for column in self.words.values()]
+            rows.append([label, *words, *(f"{x:.6g}" for x in self.values[i])])
+        widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+        return "\n".join(
+            "  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True))
+            for row in rows
+        )
+
+
+def displacements(case: CaseResult) -> Table:
+    """Displacements of every node, global."""
+    units = ("m",) * 3 + ("rad",) * 3
+    columns = ("ux", "uy", "uz", "rx", "ry", "rz")
+    system = case.system
+    index = system.alias | _index(system.labels)
+    return Table(system.labels, columns, units, solved(case).u, {}, index)
+
+
+def supports(case: CaseResult) -> Table:
+    """Force of every support card on the pipe, global, with its state.
+
+    `normal` is the size of the force without its friction.
+    """
+    cards, force, friction = case.system.cards, card_forces(case), card_friction(case)
+    normal = np.linalg.norm(force[:, :3] - friction, axis=1)
+    words: Words = {"name": [card.name for card in cards], "state": card_states(case)}
+    columns = (*FORCES, "normal", "friction_x", "friction_y", "friction_z")
+    values = np.column_stack([force, normal, friction])
+    units = ("N",) * 3 + ("N m",) * 3 + ("N",) * 4
+    ids = card_ids(cards)
+    names = {card.name.upper(): i for i, card in reversed(list(enumerate(cards)))}
+    return Table(ids, columns, units, values, words, names | _index(ids))
+
+
+def elements(case: CaseResult) -> Table:
+    """End forces on every element, global and in the axes of its ends (x along the pipe)."""
+    system, force = case.system, solved(case).end_force
+    both = np.concatenate([force, local_forces(system, force)], axis=1)
+    ends = ("from", "to", "local_from", "local_to")
+    columns = tuple(f"{name}_{end}" for end in ends for name in FORCES)
+    units = (("N",) * 3 + ("N m",) * 3) * 4
+    parts = system.parts
+    words: Words = {
+        "from": [p.start for p in parts],
+        "to": [p.end for p in parts],
+        "type": [p.type for p in parts],
+    }
+    ids = element_ids(parts)
+    return Table(ids, columns, units, both.reshape(-1, 24), words, _index(ids))
+
+
+def _index(labels: Sequence[str]) -> dict[str, int]:
+    return {label: i for i, label in enumerate(labels)}
+
+
+def element_ids(parts: Sequence[Part]) -> tuple[str, ...]:
+    """One name an element: 10-20, and from the second between the same nodes on 10-20#2."""
+    seen: dict[str, int] = {}
+    ids = []
+    for part in parts:
+        name = f"{part.start}-{part.end}"
+        seen[name] = count = seen.get(name, 0) + 1
+        ids.append(name if count == 1 else f"{name}#{count}")
+    return tuple(ids)
