@@ -124,18 +124,19 @@ def _six(error: F8, translational: float, rotational: float) -> F8:
 
 def _elements(system: System, loads: Loads, state: State, scale: Scale) -> list[Item]:
     """Balance of every element with its load, and deformations against end forces."""
-    first, tip = np.ascontiguousarray(state.end_force.transpose(1, 2, 0))
-    d, dist = deformation.tip_vector(system), np.ascontiguousarray(loads.dist.T)
-    sums = first + tip
+    tip = np.array(state.end_force[:, 1].T, order="C")
+    d, dist = deformation.tip_vector(system), np.array(loads.dist.T, order="C")
+    sums = tip + state.end_force[:, 0].T
     sums[:3] += dist * system.length
     sums[3:] += cross(d, tip[:3]) + deformation.load_moment(system, dist)
     balance = _six(sums, scale.force, scale.moment)
 
     i, j = system.ends.T
-    u, low = np.ascontiguousarray(state.u.T), np.ascontiguousarray(state.u_low.T)
-    move, error = two_difference(u[:, j], u[:, i])
-    error += low[:, j] - low[:, i]
-    turn = u[3:, i]
+    here = np.take(state.u, i, axis=0)
+    rows, rest = two_difference(np.take(state.u, j, axis=0), here)
+    rest += np.take(state.u_low, j, axis=0) - np.take(state.u_low, i, axis=0)
+    move, error = np.array(rows.T, order="C"), rest.T
+    turn = np.array(here[:, 3:].T, order="C")
     law = deformation.expected(system, loads, tip)
     spring = np.flatnonzero(system.kind == SPRING)
     if spring.size:

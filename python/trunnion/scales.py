@@ -19,7 +19,7 @@ class Scale:
 
 def largest(*arrays: F8) -> float:
     """Largest absolute number of all arrays, 0 of nothing."""
-    return max((float(np.abs(a).max()) for a in arrays if a.size), default=0.0)
+    return max((max(float(a.max()), -float(a.min())) for a in arrays if a.size), default=0.0)
 
 
 def floor(own: float, kin: float) -> float:
