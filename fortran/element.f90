@@ -1,0 +1,167 @@
+!> Elements at their tip: every element is a cantilever fixed at end 1, whatever its shape.
+!>
+!> With d the vector from end 1 to end 2, the tip deformation is
+!> v = (u2 - u1 - r1 x d, r2 - r1) and the tip force q = k (v - v0); the force at end 1 follows
+!> from statics, so an element is in balance to the last bit and rigid motions cost nothing.
+module element
+   use beam, only: beam_flexibility, beam_free_deformation, beam_stiffness
+   use bend, only: arc_flexibility, arc_free_deformation, arc_moment
+   use frame, only: cross, cross_matrix, turn_matrix
+   use kinds, only: ip, wp
+   use status_codes, only: status_bad_section, status_ok, status_zero_length
+   implicit none (type, external)
+   private
+   public :: kind_arc, kind_spring, kind_straight
+   public :: tip_deformation, tip_flexibility, tip_resultant, tip_stiffness
+
+   integer(ip), parameter :: kind_straight = 0_ip, kind_arc = 1_ip, kind_spring = 2_ip
+
+contains
+
+   !> Flexibility in the axes of end 1 (not of springs).
+   pure function tip_flexibility(kind, length, radius, angle, rigidity, flex) result(f)
+      integer(ip), intent(in) :: kind
+      real(wp), intent(in) :: length, radius, angle   !! [m], [m], [rad]
+      real(wp), intent(in) :: rigidity(4), flex
+      real(wp) :: f(6, 6)
+
+      if (kind == kind_arc) then
+         f = arc_flexibility(radius, angle, rigidity, flex)
+      else
+         f = beam_flexibility(length, rigidity, flex)
+      end if
+   end function tip_flexibility
+
+   !> Free tip deformation in the axes of end 1 under load (3) [N/m], strain and curvature.
+   pure function tip_deformation(kind, length, radius, angle, rigidity, flex, load, strain, &
+         & curvature) result(v)
+      integer(ip), intent(in) :: kind
+      real(wp), intent(in) :: length, radius, angle, rigidity(4), flex
+      real(wp), intent(in) :: load(3), strain, curvature
+      real(wp) :: v(6)
+
+      if (kind == kind_arc) then
+         v = arc_free_deformation(radius, angle, rigidity, flex, load, strain, curvature)
+      else if (kind == kind_straight) then
+         v = beam_free_deformation(length, rigidity, flex, load, strain)
+      else
+         v(:) = 0.0_wp
+      end if
+   end function tip_deformation
+
+   !> Resultant of the uniform load: force, and moment about end 1, axes of end 1.
+   pure function tip_resultant(kind, length, radius, angle, load) result(w)
+      integer(ip), intent(in) :: kind
+      real(wp), intent(in) :: length, radius, angle, load(3)
+      real(wp) :: w(6)
+
+      w(:) = 0.0_wp
+      if (kind == kind_arc) then
+         w(1:3) = load*radius*angle
+         w(4:6) = cross(arc_moment(radius, 0.0_wp, angle), load)
+      else if (kind == kind_straight) then
+         w(1:3) = load*length
+         w(4:6) = cross([0.5_wp*length**2, 0.0_wp, 0.0_wp], load)
+      end if
+   end function tip_resultant
+
+   !> Stiffness at the tip in global axes.
+   pure subroutine tip_stiffness(kind, length, radius, angle, rigidity, flex, spring, axes, d, &
+         & k, status)
+      integer(ip), intent(in) :: kind
+      real(wp), intent(in) :: length, radius, angle, rigidity(4), flex
+      real(wp), intent(in) :: spring(6)    !! stiffnesses at mid-distance, own axes
+      real(wp), intent(in) :: axes(3, 3)   !! columns ex, ey, ez of end 1, global
+      real(wp), intent(in) :: d(3)         !! from end 1 to end 2, global [m]
+      real(wp), intent(out) :: k(6, 6)
+      integer(ip), intent(out) :: status
+
+      real(wp) :: local(6, 6)
+
+      status = status_ok
+      k(:, :) = 0.0_wp
+      if (kind == kind_spring) then
+         k = spring_stiffness(spring, axes, d)
+         return
+      end if
+      if (.not. (length > 0.0_wp)) then
+         status = status_zero_length
+         return
+      end if
+      if (.not. (minval(rigidity(1:3)) > 0.0_wp .and. flex > 0.0_wp)) then
+         status = status_bad_section
+         return
+      end if
+      if (kind == kind_arc) then
+         call invert(arc_flexibility(radius, angle, rigidity, flex), local, status)
+         if (status /= status_ok) return
+      else
+         local = beam_stiffness(length, rigidity, flex)
+      end if
+      k = turn_matrix(axes, local)
+   end subroutine tip_stiffness
+
+   !> A spring at mid-distance: its deformation there is v + (r2 - r1)/2 carried by -d.
+   pure function spring_stiffness(spring, axes, d) result(k)
+      real(wp), intent(in) :: spring(6), axes(3, 3), d(3)
+      real(wp) :: k(6, 6)
+
+      real(wp) :: t(6, 6), diagonal(6, 6)
+      integer :: i
+
+      diagonal(:, :) = 0.0_wp
+      do i = 1, 6
+         diagonal(i, i) = spring(i)
+      end do
+      t(:, :) = 0.0_wp
+      do i = 1, 6
+         t(i, i) = 1.0_wp
+      end do
+      t(1:3, 4:6) = 0.5_wp*cross_matrix(d)
+      k = matmul(transpose(t), matmul(turn_matrix(axes, diagonal), t))
+      k = 0.5_wp*(k + transpose(k))
+   end function spring_stiffness
+
+   !> Inverse of a symmetric positive definite 6 by 6 by Cholesky, scaled to a unit diagonal.
+   pure subroutine invert(f, k, status)
+      real(wp), intent(in) :: f(6, 6)
+      real(wp), intent(out) :: k(6, 6)
+      integer(ip), intent(out) :: status
+
+      real(wp) :: l(6, 6), x(6), s(6), a
+      integer :: i, j
+
+      status = status_bad_section
+      k(:, :) = 0.0_wp
+      l(:, :) = 0.0_wp
+      do i = 1, 6
+         if (.not. f(i, i) > 0.0_wp) return
+         s(i) = 1.0_wp/sqrt(f(i, i))
+      end do
+      do j = 1, 6
+         do i = j, 6
+            a = f(i, j)*s(i)*s(j) - dot_product(l(i, 1:j - 1), l(j, 1:j - 1))
+            if (i == j) then
+               if (.not. a > 0.0_wp) return
+               l(j, j) = sqrt(a)
+            else
+               l(i, j) = a/l(j, j)
+            end if
+         end do
+      end do
+      do j = 1, 6
+         x(:) = 0.0_wp
+         x(j) = 1.0_wp
+         do i = 1, 6
+            x(i) = (x(i) - dot_product(l(i, 1:i - 1), x(1:i - 1)))/l(i, i)
+         end do
+         do i = 6, 1, -1
+            x(i) = (x(i) - dot_product(l(i + 1:6, i), x(i + 1:6)))/l(i, i)
+         end do
+         k(:, j) = x*s*s(j)
+      end do
+      k = 0.5_wp*(k + transpose(k))
+      status = status_ok
+   end subroutine invert
+
+end module element

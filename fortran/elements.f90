@@ -1,0 +1,92 @@
+!> Passes over all elements: stiffness, loads, end forces and their sum at the nodes.
+module elements
+   use assembly, only: add_element
+   use element, only: tip_deformation, tip_resultant, tip_stiffness
+   use frame, only: turn_to_global
+   use kinds, only: ip, wp
+   use recover, only: deformation, end_forces
+   use status_codes, only: status_ok
+   implicit none (type, external)
+   private
+   public :: assemble_elements, element_end_forces, element_loads, element_stiffness
+
+contains
+
+   !> Tip stiffness of every element in global axes; `info` is the first bad element.
+   pure subroutine element_stiffness(kind, form, rigidity, flex, spring, axes, d, k, status, info)
+      integer(ip), intent(in) :: kind(:)
+      real(wp), intent(in) :: form(:, :)       !! (3, n) length [m], radius [m], angle [rad]
+      real(wp), intent(in) :: rigidity(:, :), flex(:), spring(:, :)
+      real(wp), intent(in) :: axes(:, :, :), d(:, :)
+      real(wp), intent(out) :: k(:, :, :)
+      integer(ip), intent(out) :: status, info
+
+      integer(ip) :: i
+
+      status = status_ok
+      info = -1_ip
+      do i = 1_ip, size(kind, kind=ip)
+         call tip_stiffness(kind(i), form(1, i), form(2, i), form(3, i), rigidity(:, i), &
+            & flex(i), spring(:, i), axes(:, :, i), d(:, i), k(:, :, i), status)
+         if (status /= status_ok) then
+            info = i - 1_ip
+            return
+         end if
+      end do
+   end subroutine element_stiffness
+
+   !> Free tip deformation and load resultant (about end 1) of every element, global axes.
+   pure subroutine element_loads(kind, form, rigidity, flex, axes, dist, strain, curvature, v0, w)
+      integer(ip), intent(in) :: kind(:)
+      real(wp), intent(in) :: form(:, :), rigidity(:, :), flex(:), axes(:, :, :)
+      real(wp), intent(in) :: dist(:, :)                !! global, per length of axis [N/m]
+      real(wp), intent(in) :: strain(:), curvature(:)   !! [-], [rad/m]
+      real(wp), intent(out) :: v0(:, :), w(:, :)        !! (6, n)
+
+      real(wp) :: load(3)
+      integer(ip) :: i
+
+      do i = 1_ip, size(kind, kind=ip)
+         load = matmul(dist(:, i), axes(:, :, i))
+         v0(:, i) = turn_to_global(axes(:, :, i), tip_deformation(kind(i), form(1, i), &
+            & form(2, i), form(3, i), rigidity(:, i), flex(i), load, strain(i), curvature(i)))
+         w(:, i) = turn_to_global(axes(:, :, i), &
+            & tip_resultant(kind(i), form(1, i), form(2, i), form(3, i), load))
+      end do
+   end subroutine element_loads
+
+   !> Add every element to the values of the global stiffness.
+   pure subroutine assemble_elements(k, d, ends, rank, colptr, val)
+      real(wp), intent(in) :: k(:, :, :), d(:, :)
+      integer(ip), intent(in) :: ends(:, :), rank(:), colptr(:)
+      real(wp), intent(inout) :: val(:)
+
+      integer(ip) :: i
+
+      do i = 1_ip, size(rank, kind=ip)
+         call add_element(k(:, :, i), d(:, i), ends(:, i), rank(i), colptr, val)
+      end do
+   end subroutine assemble_elements
+
+   !> End forces on every element; subtracts them from the nodes' out-of-balance `r`.
+   pure subroutine element_end_forces(ends, d, k, v0, w, u, low, f, r)
+      integer(ip), intent(in) :: ends(:, :)
+      real(wp), intent(in) :: d(:, :), k(:, :, :), v0(:, :), w(:, :)
+      real(wp), intent(in) :: u(:, :), low(:, :)   !! displacements (6, n_node), high and low
+      real(wp), intent(out) :: f(:, :, :)          !! (6, 2, n) global, on the element
+      real(wp), intent(inout) :: r(:, :)
+
+      real(wp) :: v(6)
+      integer(ip) :: i, a, b
+
+      do i = 1_ip, size(ends, 2, ip)
+         a = ends(1, i) + 1_ip
+         b = ends(2, i) + 1_ip
+         v = deformation(d(:, i), u(:, a), low(:, a), u(:, b), low(:, b), v0(:, i))
+         f(:, :, i) = end_forces(k(:, :, i), d(:, i), v, w(:, i))
+         r(:, a) = r(:, a) - f(:, 1, i)
+         r(:, b) = r(:, b) - f(:, 2, i)
+      end do
+   end subroutine element_end_forces
+
+end module elements

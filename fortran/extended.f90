@@ -1,0 +1,69 @@
+!> Double-double sums and products: a value is the unevaluated sum hi + lo, about 32 digits.
+!>
+!> Error-free transformations of Knuth (two_sum) and Dekker (two_prod), in the form of
+!> Hida, Li and Bailey (2001), "Library for double-double and quad-double arithmetic".
+!> They hold only without fused or reordered arithmetic: the build passes -ffp-contract=off.
+module extended
+   use kinds, only: wp
+   implicit none (type, external)
+   private
+   public :: add_dd, add_product, two_prod, two_sum
+
+   real(wp), parameter :: splitter = 134217729.0_wp   !! 2**27 + 1
+
+contains
+
+   !> s + e = a + b exactly.
+   elemental subroutine two_sum(a, b, s, e)
+      real(wp), intent(in) :: a, b
+      real(wp), intent(out) :: s, e
+
+      real(wp) :: t
+
+      s = a + b
+      t = s - a
+      e = (a - (s - t)) + (b - t)
+   end subroutine two_sum
+
+   !> p + e = a b exactly, unless the product over- or underflows.
+   elemental subroutine two_prod(a, b, p, e)
+      real(wp), intent(in) :: a, b
+      real(wp), intent(out) :: p, e
+
+      real(wp) :: t, a1, a2, b1, b2
+
+      p = a*b
+      t = splitter*a
+      a1 = t - (t - a)
+      a2 = a - a1
+      t = splitter*b
+      b1 = t - (t - b)
+      b2 = b - b1
+      e = ((a1*b1 - p) + a1*b2 + a2*b1) + a2*b2
+   end subroutine two_prod
+
+   !> (hi, lo) <- (hi, lo) + (a, a_low), renormalised.
+   elemental subroutine add_dd(hi, lo, a, a_low)
+      real(wp), intent(inout) :: hi, lo
+      real(wp), intent(in) :: a, a_low
+
+      real(wp) :: s, e
+
+      call two_sum(hi, a, s, e)
+      e = e + (lo + a_low)
+      hi = s + e
+      lo = e - (hi - s)
+   end subroutine add_dd
+
+   !> (hi, lo) <- (hi, lo) + (a, a_low) b, with b a plain real.
+   elemental subroutine add_product(hi, lo, a, a_low, b)
+      real(wp), intent(inout) :: hi, lo
+      real(wp), intent(in) :: a, a_low, b
+
+      real(wp) :: p, e
+
+      call two_prod(a, b, p, e)
+      call add_dd(hi, lo, p, e + a_low*b)
+   end subroutine add_product
+
+end module extended

@@ -1,0 +1,1 @@
+"""The solver: from a numbered system and its loads to certified numbers."""

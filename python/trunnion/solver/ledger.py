@@ -1,0 +1,40 @@
+"""The work ledger: exact counts of what a solve did, the same on every machine."""
+
+from trunnion.kernels import SpdWork
+
+
+class Ledger:
+    """Counts by name; those of the factor are read off the C shim, where the calls are made.
+
+    analyse, factorise, solve : CHOLMOD calls (a solve is one right-hand side).
+    refine : solves of the final refinement and certificate, a share of `solve` kept apart.
+    elements : element evaluations; assemble : assemblies of K; iterations : passes.
+    """
+
+    NAMES = ("analyse", "factorise", "solve", "refine", "elements", "assemble", "iterations")
+
+    def __init__(self) -> None:
+        self.count = dict.fromkeys(self.NAMES, 0)
+        self._seen: dict[int, SpdWork] = {}
+        self.refining = False
+
+    def add(self, **more: int) -> None:
+        """Add to named counts."""
+        for name, n in more.items():
+            self.count[name] += n
+
+    def follow(self, owner: object, work: SpdWork) -> None:
+        """Take over what the factor of `owner` has done since last time."""
+        seen = self._seen.get(id(owner), SpdWork(0, 0, 0))
+        self.count["analyse"] += work.analyse - seen.analyse
+        self.count["factorise"] += work.factorise - seen.factorise
+        self.count["refine" if self.refining else "solve"] += work.solve - seen.solve
+        self._seen[id(owner)] = work
+
+    def snapshot(self) -> dict[str, int]:
+        """Copy of the counts."""
+        return dict(self.count)
+
+    def since(self, before: dict[str, int]) -> dict[str, int]:
+        """Counts since a snapshot."""
+        return {name: n - before[name] for name, n in self.count.items()}

@@ -1,0 +1,96 @@
+"""Semismooth Newton on the convex energy of supports whose friction capacities are held fixed.
+
+Elements, contacts and sliders of fixed capacity are gradients of convex energies, so every step
+of the consistent tangent with an exact line search goes down from anywhere.  Full steps settle
+the open and closed contacts in far fewer passes than searched ones (they move like an active-set
+method), but may cycle; so a bounded number of full steps is tried first where asked.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from trunnion.arrays import F8
+from trunnion.solver.history import History
+from trunnion.solver.structure import Forcing, Point, Response, Sliding, Structure
+
+FULL_STEPS = 12  # tried before the line search takes over
+TINY_PIVOT = 1e-14  # rcond below which the tangent counts as singular
+PROXIMAL = 1e-9  # of the largest element stiffness, on the diagonal of a singular tangent
+RUNAWAY = 1e3  # displacement over the size of the model that means a mechanism
+
+
+@dataclass(slots=True)
+class Outcome:
+    """Where an inner iteration ended."""
+
+    response: Response
+    r: F8
+    residual: float
+    settled: bool
+    runaway: bool = False
+    shifted: bool = False
+
+
+def relax(
+    structure: Structure,
+    point: Point,
+    sliding: Sliding,
+    forcing: Forcing,
+    *,
+    tolerance: float,
+    history: History,
+    what: str,
+    full_steps: int = 0,
+    limit: int = 200,
+) -> Outcome:
+    """Move `point` to the least energy of these capacities, to an out-of-balance force.
+
+    Parameters
+    ----------
+    tolerance : largest force (moment) left at a node [N, N m].
+    full_steps : number of first steps taken whole; a line search follows.
+    limit : most iterations.
+    """
+    r, _, response = structure.residual(point, sliding, forcing)
+    changing = np.zeros_like(r)
+    structure.respond(point, sliding, forcing, changing, changing=True)
+    shifted = False
+    for i in range(limit):
+        residual = float(np.abs(r).max())
+        if i > 0 and residual <= tolerance:
+            return Outcome(response, r, residual, True, shifted=shifted)
+        shift = tangent_factor(structure, response)
+        shifted |= shift > 0.0
+        p = structure.solve(r)
+        if not np.abs(p).max() < RUNAWAY * structure.size:
+            return Outcome(response, r, residual, False, runaway=True, shifted=shifted)
+        step = 1.0
+        if i >= full_steps or shift:
+            push = float(np.vdot(r, p))
+            stiff = push - shift * float(np.vdot(p, p))
+            step = structure.search(point, sliding, forcing, p, (push, stiff))
+        r -= step * (r - shift * p)
+        kernel_part = np.zeros_like(r)
+        structure.changing_product(response, p, kernel_part)
+        r -= step * kernel_part + changing
+        point.move(p, step)
+        before, changing = response, np.zeros_like(r)
+        response = structure.respond(point, sliding, forcing, changing, changing=True)
+        r += changing
+        history.add(what, residual, step, before, response)
+    residual = float(np.abs(r).max())
+    return Outcome(response, r, residual, residual <= tolerance, shifted=shifted)
+
+
+def tangent_factor(structure: Structure, response: Response) -> float:
+    """Factor the tangent of a response; returns the shift that a singular one needed."""
+    if structure.factorise(response.tangent, response.slider_tangent):
+        if structure.rcond > TINY_PIVOT:
+            return 0.0
+    shift = PROXIMAL * structure.scale
+    for _ in range(8):
+        if structure.factorise(response.tangent, response.slider_tangent, shift):
+            return shift
+        shift *= 100.0
+    raise ArithmeticError("the stiffness cannot be factored even with a large proximal term")

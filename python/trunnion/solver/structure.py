@@ -1,0 +1,341 @@
+"""A system made ready to be solved: kernel arrays, linear stiffness, its factor, residuals."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from trunnion import kernels
+from trunnion.arrays import F8, I4, Loads, System
+from trunnion.errors import NotPositiveDefiniteError
+from trunnion.solver.inert import contacts_of, sliders_of
+from trunnion.solver.ledger import Ledger
+from trunnion.solver.pattern import build_pattern
+
+
+@dataclass(frozen=True, slots=True)
+class Forcing:
+    """Loads as the kernels take them; linear, so that steps are mixtures of two.
+
+    free : (n_elem, 6) free tip deformation, global [m, rad].
+    resultant : (n_elem, 6) of the distributed load, about end 1 [N, N m].
+    nodal : (n_node, 6).
+    base : (n_contact, 3), slider_base : (n_slider, 3) movement under the supports.
+    preload : (n_contact, 3) cold loads of hangers on the pipe [N].
+    """
+
+    free: F8
+    resultant: F8
+    nodal: F8
+    base: F8
+    slider_base: F8
+    preload: F8
+    mux: float
+
+    def toward(self, other: "Forcing", t: float) -> "Forcing":
+        """Loads a fraction t of the way to `other`; exactly `other` at 1."""
+        if t == 1.0:
+            return other
+        parts = (
+            (1.0 - t) * getattr(self, name) + t * getattr(other, name)
+            for name in ("free", "resultant", "nodal", "base", "slider_base", "preload")
+        )
+        return Forcing(*parts, mux=other.mux)
+
+    def scaled(self, t: float) -> "Forcing":
+        """Loads times t."""
+        return Forcing(
+            t * self.free,
+            t * self.resultant,
+            t * self.nodal,
+            t * self.base,
+            t * self.slider_base,
+            t * self.preload,
+            self.mux,
+        )
+
+
+@dataclass(slots=True)
+class Point:
+    """Displacements in double-double: u + low, each (n_node, 6) [m, rad]."""
+
+    u: F8
+    low: F8
+
+    @classmethod
+    def zero(cls, n_node: int) -> "Point":
+        """Undeformed."""
+        return cls(np.zeros((n_node, 6)), np.zeros((n_node, 6)))
+
+    def copy(self) -> "Point":
+        """Same point in arrays of its own."""
+        return Point(self.u.copy(), self.low.copy())
+
+    def move(self, p: F8, step: float = 1.0) -> None:
+        """Go step times p."""
+        kernels.accumulate(p, step, self.u, self.low)
+
+
+@dataclass(slots=True)
+class Sliding:
+    """What friction is, for one pass: capacities given, or `coupled` to the normal forces.
+
+    capacity, kf, mu : (n_slider,) [N], [N/m], -.  datum : (n_slider, 3) committed [m].
+    """
+
+    capacity: F8
+    kf: F8
+    mu: F8
+    datum: F8
+    coupled: bool = False
+
+
+@dataclass(slots=True)
+class Response:
+    """What supports answer to a displacement: forces, states and tangents; see `State`."""
+
+    capacity: F8
+    side: I4
+    reaction: F8
+    tangent: F8
+    mode: I4
+    friction: F8
+    slide: F8
+    slider_tangent: F8
+    normal: F8
+
+
+class Structure:
+    """Kernel arrays of one `System`, analysed once, with one factor that is renewed on demand."""
+
+    def __init__(self, system: System, ledger: Ledger) -> None:
+        self.system, self.ledger = system, ledger
+        self.contacts, self.sliders = contacts_of(system), sliders_of(system)
+        self.n_node = len(system.labels)
+        self.pattern = build_pattern(self.n_node, system.ends, self.contacts, self.sliders)
+        self._elements()
+        self._supports()
+        self._linear()
+        self._factor: kernels.SpdFactor | None = None
+        self._factored: tuple[F8, F8, float] | None = None
+
+    def _elements(self) -> None:
+        s = self.system
+        self.ends = np.ascontiguousarray(s.ends, np.int32)
+        self.d = s.xyz[s.ends[:, 1]] - s.xyz[s.ends[:, 0]]
+        self.form = np.column_stack((s.length, s.radius, s.angle))
+        self.k = kernels.element_stiffness(
+            s.kind, self.form, s.rigidity, s.flex, s.spring, s.axes, self.d
+        )
+        self.ledger.add(elements=len(s.ends))
+
+    def _supports(self) -> None:
+        c, s = self.contacts, self.sliders
+        p = self.pattern
+        offset = np.where(c.rotational, 3, 0)
+        at = np.column_stack((c.node, c.cnode, p.contact_rank, offset, c.dim, c.two_way))
+        self.at = np.ascontiguousarray(at, np.int32)
+        zero = np.zeros_like(s.node)
+        at = np.column_stack((s.node, s.cnode, p.slider_rank, zero, zero, zero))
+        self.slider_at = np.ascontiguousarray(at, np.int32)
+        self.changes = not bool(c.two_way.all() and len(self.system.sliders.node) == 0)
+
+    def _linear(self) -> None:
+        """Stiffness of everything that never changes; absent freedoms get a unit diagonal."""
+        p, c = self.pattern, self.contacts
+        val = np.zeros(len(p.row))
+        if len(self.ends):
+            kernels.assemble_elements(self.k, self.d, self.ends, p.element_rank, p.colptr, val)
+        closed = np.einsum("c,cai,caj->cij", c.k, c.normal, c.normal)
+        kernels.add_tangents(self.at, closed, 1, p.colptr, val)
+        whole = val.copy()  # with everything closed and stuck
+        kernels.add_tangents(self.at, closed, 0, p.colptr, whole)
+        basis = self.sliders.basis
+        stuck = np.einsum("s,sai,saj->sij", self.sliders.kf, basis, basis)
+        kernels.add_tangents(self.slider_at, stuck, 0, p.colptr, whole)
+        self.absent = (whole[p.diagonal] == 0.0).reshape(-1, 6)
+        self.closed_tangent, self.stuck_tangent = closed, stuck
+        val[p.diagonal[self.absent.ravel()]] = 1.0
+        self.val = val
+        self.ledger.add(assemble=1)
+
+    @cached_property
+    def size(self) -> float:
+        """Extent of the model [m], at least 1."""
+        xyz = self.system.xyz
+        return max(1.0, float(np.ptp(xyz, axis=0).max())) if len(xyz) else 1.0
+
+    @cached_property
+    def scale(self) -> float:
+        """Largest diagonal of the elements' stiffness [N/m], a size for proximal terms."""
+        return float(np.abs(self.k).max()) if len(self.k) else 1.0
+
+    # ------------------------------------------------------------------ loads
+    def forcing(self, loads: Loads) -> Forcing:
+        """Kernel form of a case's loads."""
+        s, c = self.system, self.contacts
+        if len(self.ends):
+            free, resultant = kernels.element_loads(
+                s.kind,
+                self.form,
+                s.rigidity,
+                s.flex,
+                s.axes,
+                np.ascontiguousarray(loads.dist),
+                loads.strain,
+                loads.curvature,
+            )
+        else:
+            free = resultant = np.zeros((0, 6))
+        base = np.where(c.rotational[:, None], loads.base[c.card, 3:], loads.base[c.card, :3])
+        return Forcing(
+            free,
+            resultant,
+            np.ascontiguousarray(loads.nodal),
+            np.ascontiguousarray(base),
+            np.ascontiguousarray(loads.base[self.sliders.card, :3]),
+            np.ascontiguousarray(loads.preload[c.card, None] * s.up),
+            loads.mux,
+        )
+
+    # ------------------------------------------------------------------ responses
+    def respond(
+        self, point: "Point", sliding: Sliding, forcing: Forcing, r: F8, *, changing: bool = False
+    ) -> Response:
+        """Support forces at a point, added to r (only those that may change state, if asked)."""
+        c, s = self.contacts, self.sliders
+        return Response(
+            sliding.capacity,
+            *kernels.contact_pass(
+                self.at,
+                c.normal,
+                c.gap,
+                c.k,
+                forcing.base,
+                forcing.preload,
+                self.slider_at,
+                s.basis,
+                sliding.kf,
+                sliding.mu,
+                sliding.coupled,
+                changing,
+                forcing.slider_base,
+                sliding.datum,
+                s.first,
+                s.contact,
+                point.u,
+                point.low,
+                sliding.capacity,
+                r,
+            ),
+        )
+
+    def residual(
+        self, point: "Point", sliding: Sliding, forcing: Forcing
+    ) -> tuple[F8, F8, Response]:
+        """Out-of-balance force at the nodes, end forces of the elements, support response."""
+        r = forcing.nodal.copy()
+        response = self.respond(point, sliding, forcing, r)
+        if len(self.ends):
+            end = kernels.element_end_forces(
+                self.ends,
+                self.d,
+                self.k,
+                forcing.free,
+                forcing.resultant,
+                point.u,
+                point.low,
+                r,
+            )
+        else:
+            end = np.zeros((0, 2, 6))
+        self.ledger.add(elements=len(self.ends))
+        return r, end, response
+
+    def search(
+        self, point: "Point", sliding: Sliding, forcing: Forcing, p: F8, work: tuple[float, float]
+    ) -> float:
+        """Length of the step along p at which the energy of fixed capacities is least."""
+        c, s = self.contacts, self.sliders
+        step, _ = kernels.line_search(
+            self.at,
+            c.normal,
+            c.gap,
+            c.k,
+            forcing.base,
+            self.slider_at,
+            s.basis,
+            sliding.kf,
+            sliding.capacity,
+            forcing.slider_base,
+            sliding.datum,
+            point.u,
+            point.low,
+            p,
+            np.array(work),
+        )
+        return float(step)
+
+    # ------------------------------------------------------------------ factor
+    def factorise(self, tangent: F8, slider_tangent: F8, shift: float = 0.0) -> bool:
+        """Renew the factor for these tangents unless it is theirs already.
+
+        Returns whether the matrix is positive definite.
+        """
+        held = self._factored
+        if held is not None and (
+            held[2] == shift
+            and np.array_equal(held[0], tangent)
+            and np.array_equal(held[1], slider_tangent)
+        ):
+            return True
+        if self._factor is None:
+            self._factor = kernels.SpdFactor(self.pattern.colptr, self.pattern.row)
+        val = self.val
+        if self.changes:
+            val = val.copy()
+            kernels.add_tangents(self.at, tangent, 0, self.pattern.colptr, val)
+            kernels.add_tangents(self.slider_at, slider_tangent, 0, self.pattern.colptr, val)
+        self._factored = None
+        try:
+            self.rcond = self._factor.factorise(val, shift)
+        except NotPositiveDefiniteError:
+            return False
+        finally:
+            self.ledger.follow(self, self._factor.work)
+        self._factored = (tangent, slider_tangent, shift)
+        return True
+
+    def solve(self, r: F8) -> F8:
+        """Displacements (n_node, 6) of the factored stiffness under r; or (m, n_node, 6)."""
+        assert self._factor is not None
+        shape = r.shape
+        x = self._factor.solve(r.reshape(-1, 6 * self.n_node))
+        self.ledger.follow(self, self._factor.work)
+        return x.reshape(shape)
+
+    def changing_product(self, response: Response, p: F8, r: F8) -> None:
+        """Subtract from r the share of K p that comes from contacts which may change."""
+        kernels.contact_product(self.at, response.tangent, p, r)
+        kernels.contact_product(self.slider_at, response.slider_tangent, p, r)
+
+    def coupling(self, response: Response, sliding: Sliding, p: F8) -> tuple[F8, F8]:
+        """Change of sliding friction forces through their normal forces for a change p.
+
+        Returns the nodal forces (n_node, 6) and the change of each slider's normal force.
+        """
+        r = np.zeros_like(p)
+        change = kernels.coupling_product(
+            self.at,
+            response.tangent,
+            self.slider_at,
+            sliding.mu,
+            response.mode,
+            response.friction,
+            self.sliders.first,
+            self.sliders.contact,
+            response.reaction,
+            p,
+            r,
+        )
+        return r, change
