@@ -2,8 +2,6 @@
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from trunnion.arrays import F8, Loads, State, System
 
 
