@@ -117,7 +117,7 @@ class Structure:
         self._supports()
         self._linear()
         self._factor: kernels.SpdFactor | None = None
-        self._factored: tuple[F8, F8, float] | None = None
+        self.held: tuple[F8, F8, float] | None = None  # tangents and shift in the factor
 
     def _elements(self) -> None:
         s = self.system
@@ -197,6 +197,14 @@ class Structure:
             np.ascontiguousarray(loads.preload[c.card, None] * s.up),
             loads.mux,
         )
+
+    @cached_property
+    def still(self) -> Forcing:
+        """No loads at all."""
+        n, c, m = len(self.ends), len(self.at), len(self.slider_at)
+        six = np.zeros((n, 6))
+        nodal = np.zeros((self.n_node, 6))
+        return Forcing(six, six, nodal, np.zeros((c, 3)), np.zeros((m, 3)), np.zeros((c, 3)), 1.0)
 
     # ------------------------------------------------------------------ responses
     def respond(
@@ -282,7 +290,7 @@ class Structure:
 
         Returns whether the matrix is positive definite.
         """
-        held = self._factored
+        held = self.held
         if held is not None and (
             held[2] == shift
             and np.array_equal(held[0], tangent)
@@ -296,14 +304,14 @@ class Structure:
             val = val.copy()
             kernels.add_tangents(self.at, tangent, 0, self.pattern.colptr, val)
             kernels.add_tangents(self.slider_at, slider_tangent, 0, self.pattern.colptr, val)
-        self._factored = None
+        self.held = None
         try:
             self.rcond = self._factor.factorise(val, shift)
         except NotPositiveDefiniteError:
             return False
         finally:
             self.ledger.follow(self, self._factor.work)
-        self._factored = (tangent, slider_tangent, shift)
+        self.held = (tangent, slider_tangent, shift)
         return True
 
     def solve(self, r: F8) -> F8:
@@ -317,7 +325,11 @@ class Structure:
     def changing_product(self, response: Response, p: F8, r: F8) -> None:
         """Subtract from r the share of K p that comes from contacts which may change."""
         kernels.contact_product(self.at, response.tangent, p, r)
-        kernels.contact_product(self.slider_at, response.slider_tangent, p, r)
+        self.sliders_product(response.slider_tangent, p, r)
+
+    def sliders_product(self, slider_tangent: F8, p: F8, r: F8) -> None:
+        """Subtract from r the share of K p that comes from sliders."""
+        kernels.contact_product(self.slider_at, slider_tangent, p, r)
 
     def coupling(self, response: Response, sliding: Sliding, p: F8) -> tuple[F8, F8]:
         """Change of sliding friction forces through their normal forces for a change p.
@@ -339,3 +351,18 @@ class Structure:
             r,
         )
         return r, change
+
+    def scatter(self, force: F8, r: F8) -> None:
+        """Add contact forces (n_contact, 3) to the nodes' r, and their opposites at cnodes."""
+        columns = self.at[:, 3:4] + np.arange(3)
+        np.add.at(r, (self.at[:, 0:1], columns), force)
+        paired = self.at[:, 1] >= 0
+        np.subtract.at(r, (self.at[paired, 1:2], columns[paired]), force[paired])
+
+    def gather(self, p: F8) -> F8:
+        """Relative displacements (n_contact, 3) of the contacts for displacements p."""
+        columns = self.at[:, 3:4] + np.arange(3)
+        w: F8 = p[self.at[:, 0:1], columns]
+        paired = self.at[:, 1] >= 0
+        w[paired] -= p[self.at[paired, 1:2], columns[paired]]
+        return w
