@@ -9,7 +9,7 @@ import pytest
 
 import trunnion
 from trunnion.arrays import OPEN, CaseResult, Results
-from trunnion.cards import card_forces
+from trunnion.supports import card_forces
 from trunnion.model import Model
 
 MODELS = Path(__file__).parents[2] / "models"
