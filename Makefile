@@ -33,10 +33,9 @@ test: build
 	@$(BIN)/pytest $(ARGS)
 
 lint: $(READY)
-	@$(BIN)/ruff check .
-	@$(BIN)/ruff format --check .
-	@$(BIN)/mypy
-	@$(BIN)/fortitude check fortran
+	@failed=0; for check in "ruff check ." "ruff format --check ." mypy "fortitude check fortran"; do \
+	    $(BIN)/$$check || failed=1; \
+	done; exit $$failed
 
 bench: build
 	@mkdir -p build/bench

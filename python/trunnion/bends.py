@@ -139,9 +139,9 @@ def flexibility(
         return bend.k
     r = 0.5 * (section.od - section.wall)
     h = section.wall * radius / r**2
-    k = 1.65 / h
-    k = max(1.0, k * min(1.0, h ** (bend.flanges / 6.0)))
-    ratio = (r / section.wall) ** (7.0 / 3.0) * (radius / r) ** (1.0 / 3.0)
+    k: float = 1.65 / h
+    k = max(1.0, k * min(1.0, pow(h, bend.flanges / 6.0)))
+    ratio: float = pow(r / section.wall, 7.0 / 3.0) * pow(radius / r, 1.0 / 3.0)
     return max(1.0, k / (1.0 + 6.0 * max(0.0, pressure) / material.e * ratio))
 
 

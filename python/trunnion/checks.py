@@ -3,8 +3,8 @@
 from math import inf, isfinite
 
 from trunnion.bends import pipe_name
-from trunnion.errors import Problem
-from trunnion.model import Material, Model, Section
+from trunnion.errors import ModelError, Problem
+from trunnion.model import Material, Model, Place, Section
 from trunnion.vectors import size
 
 
@@ -20,7 +20,57 @@ def check_model(model: Model) -> list[Problem]:
     _pipes(model, problems)
     _springs_and_masses(model, problems)
     _supports(model, problems)
+    known = _known_labels(model)
+    for label, place, name in standing(model):
+        if label not in known:
+            problems.append(Problem(place, f"{name}: node {label} is not defined"))
     return problems
+
+
+def refuse(problems: list[Problem]) -> None:
+    """Raise the problems of a phase, if any, by file and line."""
+    if problems:
+        raise ModelError(sorted(problems, key=_position))
+
+
+def _position(problem: Problem) -> tuple[str, int]:
+    return getattr(problem.place, "file", ""), getattr(problem.place, "line", 0)
+
+
+def _known_labels(model: Model) -> set[str]:
+    """Labels that have a place: of pipes, springs, NODE cards, bends.
+
+    What only CNODE= of a known node names is known if a support or an imposed displacement
+    stands there.  A model without pipes and springs starts at its first support.
+    """
+    known = {x for p in model.pipes for x in (p.start, p.end)}
+    known |= {x for s in model.springs for x in (s.start, s.end)}
+    known |= {node.label for node in model.nodes}
+    known |= {bend.node + point for bend in model.bends for point in "NMF"}
+    if not (model.pipes or model.springs) and model.supports:
+        known.add(model.supports[0].node)
+    held = {s.node for s in model.supports} | {d.node for d in model.displacements}
+    ties = [(s.node, s.cnode) for s in model.supports if s.cnode in held]
+    found = True
+    while found:
+        new = {b for a, b in ties if b is not None and a in known and b not in known}
+        known |= new
+        found = bool(new)
+    return known
+
+
+def standing(model: Model) -> list[tuple[str, Place, str]]:
+    """List labels that something stands on, where that was written, and its name."""
+    users: list[tuple[str, Place, str]] = []
+    for s in model.supports:
+        name = f"{s.kind.upper()} {s.node}"
+        users.append((s.node, s.place, name))
+        if s.cnode is not None:
+            users.append((s.cnode, s.place, f"{name}: CNODE"))
+    users += [(m.node, m.place, f"MASS {m.node}") for m in model.masses]
+    users += [(f.node, f.place, f"FORCE {f.node}") for f in model.forces]
+    users += [(d.node, d.place, f"DISPLACEMENT {d.node}") for d in model.displacements]
+    return users
 
 
 def _material(m: Material) -> list[str]:

@@ -7,8 +7,9 @@ from typing import NamedTuple
 import numpy as np
 
 from trunnion.arrays import Card, Contacts, Part, Sliders
+from trunnion.checks import refuse
 from trunnion.elements import Elements
-from trunnion.errors import ModelError, Problem
+from trunnion.errors import Problem
 from trunnion.model import Direction, Model, Settings, Support
 from trunnion.tangents import PipeAxes
 from trunnion.vectors import AXES, Vec, complement, cross, dot, forward, unit, upright
@@ -58,12 +59,19 @@ class _Lists:
     cards: list[Card] = field(default_factory=list)
     rows: list[Row] = field(default_factory=list)
     slides: list[Slide] = field(default_factory=list)
+    planes: dict[tuple[Vec, ...], list[Vec]] = field(default_factory=dict)
 
     def card(self, card: Card, node: int, cnode: int) -> int:
         self.cards.append(card)
         self.node.append(node)
         self.cnode.append(cnode)
         return len(self.cards) - 1
+
+    def plane(self, normals: tuple[Vec, ...]) -> list[Vec]:
+        """Directions normal to all `normals`; most supports of a model share theirs."""
+        if normals not in self.planes:
+            self.planes[normals] = complement(list(normals))
+        return self.planes[normals]
 
 
 def build_contacts(
@@ -91,8 +99,7 @@ def build_contacts(
         else:
             lists.rows += _fixed(s, card, model.settings, up)
     _held_nodes(model, index, lists)
-    if problems:
-        raise ModelError(problems)
+    refuse(problems)
     return Supports(_contacts(lists), _sliders(lists), tuple(lists.cards))
 
 
@@ -112,8 +119,8 @@ def _direction(
     problems: list[Problem],
 ) -> Row:
     """Give the contact of one direction word."""
-    word = d.word.upper()
-    bare = word.lstrip("+-")
+    word = d.word
+    bare = word[1:] if word[:1] in ("+", "-") else word
     rotational = bare in WORDS[3:]
     normals: tuple[Vec, ...] = (ZERO,)
     gap = d.gap
@@ -132,7 +139,8 @@ def _direction(
                 text = f"SUPPORT {s.node}: GUIDE: round a vertical pipe there is one radial gap"
                 problems.append(Problem(s.place, text))
     else:
-        problems.append(Problem(s.place, f"SUPPORT {s.node}: direction {d.word} is not known"))
+        text = f"SUPPORT {s.node}: direction {word} is not one of X +X -X ... RX ... GUIDE LIMIT"
+        problems.append(Problem(s.place, text))
     if word.startswith("+"):
         gap = (gap[0], inf)
     elif word.startswith("-"):
@@ -144,7 +152,7 @@ def _direction(
 
 
 def _pipe_normals(word: str, axis: Vec, up: Vec) -> tuple[Vec, ...]:
-    """Normals of a GUIDE or LIMIT on a pipe along `axis`."""
+    """Give the normals of a GUIDE or LIMIT on a pipe along `axis`."""
     if word == "LIMIT":
         return (forward(axis),)
     if abs(dot(axis, up)) >= VERTICAL:
@@ -156,10 +164,13 @@ def _fixed(s: Support, card: int, settings: Settings, up: Vec) -> list[Row]:
     """Two-way contacts without friction: anchors, hangers, springs to ground."""
     gap = (0.0, 0.0)
     if s.kind == "anchor":
-        k = (s.k or settings.k, s.kr or settings.kr)
-        own = (s.k is None, s.kr is None)
+        own = (s.k, s.kr)
+        k = [
+            given if x is None else x
+            for x, given in zip(own, (settings.k, settings.kr), strict=True)
+        ]
         return [
-            Row(card, i >= 3, (AXES[i % 3],), gap, k[i // 3], own[i // 3], WORDS[i])
+            Row(card, i >= 3, (AXES[i % 3],), gap, k[i // 3], own[i // 3] is None, WORDS[i])
             for i in range(6)
         ]
     if s.kind == "hanger":
@@ -180,7 +191,7 @@ def _add_slides(s: Support, rows: list[Row], settings: Settings, lists: _Lists) 
     if law == "CONTACT":
         for i, row in enumerate(rows, start=first):
             if row.mu > 0.0:
-                basis = complement(list(row.normals))
+                basis = lists.plane(row.normals)
                 lists.slides.append(Slide(row.card, basis, row.mu, row.kf, [i]))
         return
     pressing = [i for i, row in enumerate(rows) if not row.rotational]
@@ -188,7 +199,7 @@ def _add_slides(s: Support, rows: list[Row], settings: Settings, lists: _Lists) 
         return
     rough = max((rows[i] for i in pressing), key=lambda row: row.mu)
     touching = [i for i in pressing if 0.0 in rows[i].gap] or pressing
-    basis = complement([n for i in touching for n in rows[i].normals])
+    basis = lists.plane(tuple(n for i in touching for n in rows[i].normals))
     if rough.mu > 0.0 and basis:
         contacts = [first + i for i in pressing]
         lists.slides.append(Slide(rough.card, basis, rough.mu, rough.kf, contacts))

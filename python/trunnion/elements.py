@@ -34,7 +34,7 @@ class Elements:
     wall: F8
 
     def tangents(self) -> F8:
-        """Unit tangents (n_elem, 2, 3) along the element at its ends."""
+        """Return unit tangents (n_elem, 2, 3) along the element at its ends."""
         ex, ey = self.axes[:, 0], self.axes[:, 1]
         turn = self.angle[:, None]
         return np.stack([ex, np.cos(turn) * ex + np.sin(turn) * ey], axis=1)

@@ -4,11 +4,13 @@ import re
 from collections import deque
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from math import hypot
 
 from trunnion.bends import Corner, Legs, bend_radius, corner, find_legs, pipe_name, turn_at
-from trunnion.errors import ModelError, Problem
+from trunnion.checks import refuse
+from trunnion.errors import Problem
 from trunnion.model import Model
-from trunnion.vectors import Vec, add, scale, size, sub
+from trunnion.vectors import Vec, size, sub
 
 BEND_POINT = re.compile(r"(\d+)[NMF]")
 LOOP_RELATIVE = 1e-6  # a loop may miss by this part of the extent ...
@@ -37,9 +39,13 @@ class _Net:
 
     def join(self, a: str, b: str, offset: Vec) -> None:
         """Say that b lies at a + offset."""
+        x, y, z = offset
         self.edges.setdefault(a, []).append((b, offset))
-        self.edges.setdefault(b, []).append((a, scale(-1.0, offset)))
-        self.fresh.extend(x for x in (a, b) if x in self.position)
+        self.edges.setdefault(b, []).append((a, (-x, -y, -z)))
+        if a in self.position:
+            self.fresh.append(a)
+        if b in self.position:
+            self.fresh.append(b)
 
     def put(self, label: str, xyz: Vec, parent: str | None = None) -> None:
         """Place a label that has no coordinates yet."""
@@ -50,12 +56,15 @@ class _Net:
 
     def spread(self) -> None:
         """Place all that hangs on labels with coordinates."""
-        while self.fresh:
-            a = self.fresh.popleft()
-            xyz = self.position[a]
-            for b, offset in self.edges.get(a, ()):
-                if b not in self.position:
-                    self.put(b, add(xyz, offset), a)
+        position, fresh = self.position, self.fresh
+        while fresh:
+            a = fresh.popleft()
+            x, y, z = position[a]
+            for b, (dx, dy, dz) in self.edges.get(a, ()):
+                if b not in position:
+                    position[b] = (x + dx, y + dy, z + dz)
+                    self.parent[b] = a
+                    fresh.append(b)
 
     def path(self, label: str) -> list[str]:
         """Labels from the root to `label`."""
@@ -74,8 +83,7 @@ def place(model: Model, problems: list[Problem]) -> Geometry:
     """
     legs = find_legs(model, problems)
     _check_bend_points(model, legs, problems)
-    if problems:
-        raise ModelError(problems)
+    refuse(problems)
     net = _Net()
     for node in model.nodes:
         if net.position.get(node.label, node.xyz) != node.xyz:
@@ -86,15 +94,13 @@ def place(model: Model, problems: list[Problem]) -> Geometry:
         if pipe.delta is not None:
             net.join(pipe.start, pipe.end, pipe.delta)
     _spread_all(model, legs, net, problems)
-    if problems:
-        raise ModelError(problems)
+    refuse(problems)
     _check_loops(model, net, problems)
     corners = {label: _corner(model, leg, net, problems) for label, leg in legs.items()}
     placed = {label: c for label, c in corners.items() if c is not None}
     if not problems:
         _check_tangents(model, placed, net, problems)
-    if problems:
-        raise ModelError(problems)
+    refuse(problems)
     points = dict(net.position)
     for label, c in placed.items():
         points |= {label + "N": c.n, label + "M": c.m, label + "F": c.f}
@@ -129,8 +135,9 @@ def _spread_all(model: Model, legs: Mapping[str, Legs], net: _Net, problems: lis
     sprung = [(vertex(s.start), vertex(s.end)) for s in model.springs]
     held = {s.node for s in model.supports} | {d.node for d in model.displacements}
     tied = [(vertex(s.node), s.cnode) for s in model.supports if s.cnode in held]
-    firsts = [x.start for x in (*model.pipes[:1], *model.springs[:1])]
-    firsts += [x.node for x in model.supports[:1]]
+    firsts = [pipe.start for pipe in model.pipes[:1]]
+    firsts += [spring.start for spring in model.springs[:1]]
+    firsts += [support.node for support in model.supports[:1]]
     _settle(model, waiting, net)
     _coincide(sprung, model, waiting, net)
     net.put(firsts[0].rstrip("NMF") if firsts[0][:-1] in legs else firsts[0], (0.0, 0.0, 0.0))
@@ -220,7 +227,7 @@ def _corner(model: Model, legs: Legs, net: _Net, problems: list[Problem]) -> Cor
 
 
 def _check_loops(model: Model, net: _Net, problems: list[Problem]) -> None:
-    """A pipe that closes a loop must end where the loop began, and every pipe has a length."""
+    """Check that pipes have a length and that loops end where they began."""
     spans = [[xyz[i] for xyz in net.position.values()] for i in range(3)]
     extent = max(max(span) - min(span) for span in spans)
     tolerance = LOOP_RELATIVE * extent + LOOP_ABSOLUTE
@@ -231,7 +238,8 @@ def _check_loops(model: Model, net: _Net, problems: list[Problem]) -> None:
                 text = f"PIPE {pipe_name(pipe)}: both ends have the same coordinates"
                 problems.append(Problem(pipe.place, text))
             continue
-        miss = size(sub(sub(end, start), pipe.delta))
+        dx, dy, dz = pipe.delta
+        miss = hypot(end[0] - start[0] - dx, end[1] - start[1] - dy, end[2] - start[2] - dz)
         if not miss <= tolerance:
             one, other = net.path(pipe.end), [*net.path(pipe.start), pipe.end]
             common = 0
@@ -256,7 +264,7 @@ def _way(labels: list[str]) -> str:
 def _check_tangents(
     model: Model, corners: Mapping[str, Corner], net: _Net, problems: list[Problem]
 ) -> None:
-    """A bend may use up a tangent, not more."""
+    """Check that no bend uses up more than its tangents."""
     for label, c in corners.items():
         for i in (c.legs.near, c.legs.far):
             pipe = model.pipes[i]

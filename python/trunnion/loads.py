@@ -7,7 +7,8 @@ from math import pi
 import numpy as np
 
 from trunnion.arrays import ARC, F8, Loads, System
-from trunnion.errors import ModelError, Problem
+from trunnion.checks import refuse
+from trunnion.errors import Problem
 from trunnion.expansion import OutsideTableError, free_strain
 from trunnion.model import Case, Model, Term
 from trunnion.weights import line_weights
@@ -66,8 +67,7 @@ def load_sets(model: Model, system: System) -> LoadSets:
     for case in model.cases:
         if isinstance(case, Case):
             problems += missing_sets(sets, case)
-    if problems:
-        raise ModelError(problems)
+    refuse(problems)
     return sets
 
 
@@ -78,8 +78,7 @@ def case_loads(model: Model, system: System, case: Case, sets: LoadSets | None =
     """
     sets = load_sets(model, system) if sets is None else sets
     problems = missing_sets(sets, case)
-    if problems:
-        raise ModelError(problems)
+    refuse(problems)
     n_elem, n_node, n_card = len(system.ends), len(system.xyz), len(system.cards)
     dist, nodal = np.zeros((n_elem, 3)), np.zeros((n_node, 6))
     strain, pressure = np.zeros(n_elem), np.zeros(n_elem)
@@ -128,7 +127,9 @@ def case_warnings(sets: LoadSets, case: Case) -> tuple[str, ...]:
     if "H" in names and not sets.hangers:
         found.append(f"{case.name}: H: there are no hangers")
     for name in sorted(n for n in names if n[0] == "T" and sets.bare.get(n[1:])):
-        found.append(f"{case.name}: {name} is not given on {sets.bare[name[1:]]} pipes")
+        bare = sets.bare[name[1:]]
+        pipes = "1 pipe" if bare == 1 else f"{bare} pipes"
+        found.append(f"{case.name}: {name} is not given on {pipes}")
     return tuple(found)
 
 
@@ -221,7 +222,8 @@ def _pressure_effects(model: Model, system: System) -> tuple[F8, F8]:
     rho (e - w).  Its slope round the section at the crown (f = 0) must be r e_hoop cos f, or the
     section would kink there: r (e - w) + R e' = r e_hoop at f = 0.  With
     e = P r (1 - 2 nu)/(2 E t), R e'/r = nu P r/(2 E t) and e_hoop = P r (2 - nu)/(2 E t):
-    w = -P r/(2 E t) = -s/E, whatever R and nu.  The change of curvature is w/R.
+    w = -P r/(2 E t) = -s/E, whatever R and nu.  The change of curvature is w/R.  Betti's theorem
+    gives the same: the bore of a bend that a moment closes loses volume, pressure opens it.
     """
     settings = model.settings
     nothing = np.zeros(len(system.ends))

@@ -4,9 +4,14 @@ Every length is in m, force in N, mass in kg, temperature in degrees Celsius (di
 stress and pressure in Pa.  `Place` says which line of which deck a record came from.
 """
 
-from collections.abc import Mapping
+import sys
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
+
+Label = str | int
+Value = float | str | Sequence[float] | None
+Word = str | Sequence[float] | tuple[str | Sequence[float], Mapping[str, Value]]
 
 SETS = tuple("123456789")
 INFINITE = float("inf")
@@ -297,3 +302,99 @@ class Model:
     cases: list[Case | Comb] = field(default_factory=list)
     # what cards leave behind for the cards that follow (deck.interpreter.Carried)
     carried: Any = field(default=None, compare=False, repr=False)
+
+    def default(self, **keys: Value) -> None:
+        """Choose for the whole model: MU= K= KR= KF= SHEAR= UP= G= STIFFEN= BOURDON= ..."""
+        self._add("DEFAULT", (), keys)
+
+    def material(self, name: str, **keys: Value) -> None:
+        """Define a material (E= NU= ALPHA= DENSITY= or GRADE=) and make it current."""
+        self._add("MATERIAL", (name,), keys)
+
+    def property(self, name: str, **keys: Value) -> None:
+        """Add a point T= with E= or ALPHA= to the table of a material."""
+        self._add("PROPERTY", (name,), keys)
+
+    def section(self, name: str, **keys: Value) -> None:
+        """Define a section (OD= WALL= or NPS= SCH= ...) and make it current."""
+        self._add("SECTION", (name,), keys)
+
+    def operate(self, **keys: Value) -> None:
+        """Set T1= ... P1= ... TREF= for the pipes that follow."""
+        self._add("OPERATE", (), keys)
+
+    def node(self, label: Label, **keys: Value) -> None:
+        """Give a node coordinates X= Y= Z=."""
+        self._add("NODE", (label,), keys)
+
+    def pipe(self, start: Label, end: Label, **keys: Value) -> None:
+        """Add a pipe: DX= DY= DZ=, or LENGTH= and DIR=."""
+        self._add("PIPE", (start, end), keys)
+
+    def rigid(self, start: Label, end: Label, **keys: Value) -> None:
+        """Add a stiff body with its own WEIGHT=."""
+        self._add("RIGID", (start, end), keys)
+
+    def bend(self, node: Label, *size: str, **keys: Value) -> None:
+        """Put a bend where two pipes meet: R=, or "LONG" or "SHORT"."""
+        self._add("BEND", (node, *size), keys)
+
+    def spring(self, *nodes: Label, **keys: Value) -> None:
+        """Add a spring between two nodes, or from one to ground: KX= ... KRZ= AXIS=."""
+        self._add("SPRING", nodes, keys)
+
+    def mass(self, node: Label, **keys: Value) -> None:
+        """Add a concentrated mass M= (or weight W=)."""
+        self._add("MASS", (node,), keys)
+
+    def anchor(self, node: Label, **keys: Value) -> None:
+        """Hold all six freedoms of a node."""
+        self._add("ANCHOR", (node,), keys)
+
+    def support(self, node: Label, *directions: Word, **keys: Value) -> None:
+        """Add a restraint: "+Y", ("GUIDE", {"GAP": 0.003}), (0.6, 0.8, 0.0); keys are common."""
+        self._add("SUPPORT", (node, *directions), keys)
+
+    def hanger(self, node: Label, **keys: Value) -> None:
+        """Add a spring hanger: RATE= LOAD=."""
+        self._add("HANGER", (node,), keys)
+
+    def force(self, node: Label, set: str, **keys: Value) -> None:  # noqa: A002
+        """Add a nodal force of set F1 to F9: FX= ... MZ=."""
+        self._add("FORCE", (node, set), keys)
+
+    def displacement(self, node: Label, set: str, **keys: Value) -> None:  # noqa: A002
+        """Impose a displacement of set D1 to D9: DX= ... RZ=."""
+        self._add("DISPLACEMENT", (node, set), keys)
+
+    def acceleration(self, set: str, **keys: Value) -> None:  # noqa: A002
+        """Give the uniform acceleration of set U1 to U3 in g: X= Y= Z=."""
+        self._add("ACCELERATION", (set,), keys)
+
+    def case(self, name: str, loads: str, **keys: Value) -> None:
+        """Define a load case: "W + P1 + T1"; FROM= STEPS= MUX= E= EVENTS= ITERATION= SNUBBERS=."""
+        self._add("CASE", (name, loads), keys)
+
+    def comb(self, name: str, expression: str) -> None:
+        """Define a combination of results: "OPE - SUS"."""
+        self._add("COMB", (name, expression), {})
+
+    def check(self) -> None:
+        """Raise ModelError with every fault that shows without geometry."""
+        from trunnion.deck.api import check_model
+
+        check_model(self)
+
+    def deck(self) -> str:
+        """Write the deck, in `units`, that reads back to an equal model."""
+        from trunnion.deck.writer import write
+
+        return write(self)
+
+    def _add(self, keyword: str, args: tuple[Any, ...], keys: Mapping[str, Value]) -> None:
+        """Add one record at the place of the call."""
+        from trunnion.deck.api import add
+
+        caller = sys._getframe(2)
+        place = Place(caller.f_code.co_filename.rpartition("/")[2], caller.f_lineno)
+        add(self, keyword, args, keys, place)

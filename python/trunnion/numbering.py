@@ -1,17 +1,17 @@
 """Numbers of nodes and the rows of elements, in the deck's order."""
 
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 from trunnion.arrays import ARC, SPRING, STRAIGHT, Part
 from trunnion.bends import VANISHED, Corner
-from trunnion.errors import Problem
+from trunnion.checks import standing
 from trunnion.geometry import BEND_POINT, Geometry
-from trunnion.model import Model, Place
+from trunnion.model import Model
 from trunnion.vectors import size, sub
 
 
-@dataclass(frozen=True, slots=True)
-class Row:
+class Row(NamedTuple):
     """One element: node numbers of its ends, its pipe (-1: spring), its part of a bend."""
 
     start: int
@@ -37,15 +37,14 @@ class Numbering:
     def node(self, label: str) -> int:
         """Return the number of a label; a new one if it has none yet."""
         got = self.index.get(label)
-        if got is not None:
-            return got
-        head = self.head(label)
-        if head not in self.index:
-            self.index[head] = len(self.labels)
-            self.labels.append(head)
-        if head != label:
-            self.index[label] = self.alias[label] = self.index[head]
-        return self.index[head]
+        if got is None:
+            head = self.head(label)
+            got = self.index.setdefault(head, len(self.labels))
+            if got == len(self.labels):
+                self.labels.append(head)
+            if head != label:
+                self.index[label] = self.alias[label] = got
+        return got
 
     def head(self, label: str) -> str:
         """Return the label that stands for all that fell together with `label`."""
@@ -62,20 +61,23 @@ class Numbering:
             self.same[b] = a
 
 
-def number(model: Model, geometry: Geometry, problems: list[Problem]) -> Numbering:
-    """Number nodes and list elements: each pipe, then the bend at its end of the path."""
+def number(model: Model, geometry: Geometry) -> Numbering:
+    """Give nodes their numbers; list elements: each pipe, then the bend that it leads into."""
     numbering = Numbering()
     corners = geometry.corners
     vanished = _vanished(model, geometry, numbering)
-    users = _users(model)
+    users = standing(model)
     used = {label for label, _, _ in users}
-    used |= {x for p in (*model.pipes, *model.springs) for x in (p.start, p.end)}
+    used |= {x for p in model.pipes for x in (p.start, p.end)}
+    used |= {x for s in model.springs for x in (s.start, s.end)}
     bends_of: dict[int, list[str]] = {}
     for label, c in corners.items():
         bends_of.setdefault(c.legs.near, []).append(label)
     for i, pipe in enumerate(model.pipes):
         if i not in vanished:
-            a, b = (_point(label, i, corners) for label in (pipe.start, pipe.end))
+            a, b = pipe.start, pipe.end
+            if a in corners or b in corners:
+                a, b = _point(a, i, corners), _point(b, i, corners)
             kind = "rigid" if pipe.rigid else "pipe"
             part = Part(a, b, kind, pipe.section, pipe.material, pipe.place.line)
             row = Row(numbering.node(a), numbering.node(b), STRAIGHT, i, part)
@@ -89,11 +91,8 @@ def number(model: Model, geometry: Geometry, problems: list[Problem]) -> Numberi
         numbering.rows.append(row)
     for label in corners:
         numbering.index[label] = numbering.alias[label] = numbering.node(label + "F")
-    for label, place, name in users:
-        if label in geometry.points:
-            numbering.node(label)
-        else:
-            problems.append(Problem(place, f"{name}: node {label} is not defined"))
+    for label, _, _ in users:
+        numbering.node(label)
     return numbering
 
 
@@ -136,17 +135,3 @@ def _vanished(model: Model, geometry: Geometry, numbering: Numbering) -> set[int
 
 def _bent(start: str, end: str, geometry: Geometry) -> list[str]:
     return [label for label in (start, end) if label in geometry.corners]
-
-
-def _users(model: Model) -> list[tuple[str, Place, str]]:
-    """Labels that need a node: what stands on them, where it was written, and its name."""
-    users: list[tuple[str, Place, str]] = []
-    for s in model.supports:
-        name = f"{s.kind.upper()} {s.node}"
-        users.append((s.node, s.place, name))
-        if s.cnode is not None:
-            users.append((s.cnode, s.place, f"{name}: CNODE"))
-    users += [(m.node, m.place, f"MASS {m.node}") for m in model.masses]
-    users += [(f.node, f.place, f"FORCE {f.node}") for f in model.forces]
-    users += [(d.node, d.place, f"DISPLACEMENT {d.node}") for d in model.displacements]
-    return users

@@ -59,10 +59,7 @@ def upright(ex: Vec, up: Vec) -> tuple[Vec, Vec, Vec]:
     A vertical member (to 1e-6 rad) has no upward side: there ey is global X.
     """
     side = cross(ex, up)
-    if size(side) < 1e-6:
-        ez = unit(cross(ex, AXES[0]))
-    else:
-        ez = unit(side)
+    ez = unit(cross(ex, AXES[0]) if size(side) < 1e-6 else side)
     return ex, cross(ez, ex), ez
 
 

@@ -9,8 +9,8 @@ import pytest
 
 import trunnion
 from trunnion.arrays import OPEN, CaseResult, Results
-from trunnion.cards import card_forces
 from trunnion.model import Model
+from trunnion.supports import card_forces
 
 MODELS = Path(__file__).parents[2] / "models"
 

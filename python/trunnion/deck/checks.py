@@ -164,7 +164,8 @@ def _corner(label: str, model: Model) -> str:
 
 def _pipes(model: Model, broken: frozenset[str] | set[str]) -> Iterator[Fault]:
     """Check sections and materials of pipes, and that there is something to solve."""
-    if not model.pipes and not model.springs and not broken:
+    held = model.nodes and model.supports  # a node on springs or in contact needs no pipe
+    if not (model.pipes or model.springs or held or broken):
         yield Fault(Place("", 0), "", "no PIPE card: there is nothing to solve")
     told = {"", *broken}
     for pipe in model.pipes:

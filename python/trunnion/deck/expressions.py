@@ -209,7 +209,7 @@ def format_expression(expression: Any, inner: bool = False) -> str:
     if kind == "neg":
         text = f"-{format_expression(parts[0], True)}"
     else:
-        left = format_expression(parts[0], parts[0][0] == "neg")
+        left = format_expression(parts[0])
         text = f"{left} {kind} {format_expression(parts[1], True)}"
     return f"({text})" if inner else text
 

@@ -75,18 +75,7 @@ def read_fields(record: Record, items: Iterable[Any], fields: Fields, complain: 
     keys, args = record.keys, record.args
     for i, item in enumerate(items, 1):
         if isinstance(item, tuple):
-            name, value = item
-            reader = readers.get(name)
-            if reader is None:
-                complain(_no_key(name, record.keyword), i)
-            elif name in keys:
-                complain(f"{name} is given twice", i)
-            else:
-                try:
-                    keys[name] = reader(value)
-                except ValueFault as fault:
-                    keys[name] = None
-                    complain(_named(name, fault), i)
+            read_key(keys, i, item, record.keyword, readers, complain)
         elif len(args) < len(wanted):
             try:
                 args.append(_positional(item, wanted[len(args)]))
@@ -154,10 +143,11 @@ def read_directions(
     """Fill a SUPPORT: the node, then direction words with the keys bound to them."""
     common: list[tuple[int, str, Any]] = []
     bound: list[tuple[Word, int, list[tuple[int, str, Any]]]] = []
+    wrong = False
     for i, item in enumerate(items, 1):
         if isinstance(item, tuple):
             if item[0] in _CARD_WIDE:
-                _read_key(record.keys, i, item, fields.readers["SUPPORT"], complain)
+                read_key(record.keys, i, item, "SUPPORT", fields.readers["SUPPORT"], complain)
             else:
                 (bound[-1][2] if bound else common).append((i, item[0], item[1]))
         elif not record.args:
@@ -168,11 +158,12 @@ def read_directions(
                 complain(str(fault), i)
         else:
             word = _direction(item, i, complain)
+            wrong |= word is None
             if word is not None:
                 bound.append((word, i, []))
     if not record.args:
         complain("node label missing", None)
-    elif not bound:
+    elif not bound and not wrong:
         complain(f"no direction; write one of {' '.join((*DIRECTIONS, *PIPE_DIRECTIONS))}", None)
     for word, _, keys in bound:
         turning = _is_rotation(word.text)
@@ -181,14 +172,14 @@ def read_directions(
             if turning and name in ("MU", "KF"):
                 complain(f"{name} on {word.text}: friction acts on translations only", i)
             else:
-                _read_key(word.keys, i, (name, value), readers, complain)
+                read_key(word.keys, i, (name, value), "SUPPORT", readers, complain)
         for i, name, value in common:
             if name in word.keys or (turning and name in ("MU", "KF")):
                 continue
             if name == "ALONG" and word.text not in PIPE_DIRECTIONS:
                 continue
             # a fault of a common key is told once
-            _read_key(word.keys, i, (name, value), readers, complain)
+            read_key(word.keys, i, (name, value), "SUPPORT", readers, complain)
         record.words.append(word)
     _check_along(record, bound, common, complain)
 
@@ -213,33 +204,47 @@ def _check_along(record: Record, bound: Any, common: Any, complain: Complain) ->
                 complain("ALONG without GUIDE or LIMIT on the card", i)
 
 
-def _read_key(
+def missing_keys(record: Record, complain: Complain) -> None:
+    """Complain of keys that must be given."""
+    for key in KEYWORDS[record.keyword].keys:
+        if key.required and key.name not in record.keys:
+            complain(f"{key.name}= is missing", None)
+
+
+def read_key(
     keys: dict[str, Any],
-    i: int,
+    mark: Mark,
     item: tuple[str, Any],
+    keyword: str,
     readers: dict[str, Reader],
     complain: Complain,
 ) -> None:
-    """Read one key of a SUPPORT."""
+    """Read one key into `keys`."""
     name, value = item
     reader = readers.get(name)
     if reader is None:
-        complain(_no_key(name, "SUPPORT"), i)
+        complain(_no_key(name, keyword), mark)
     elif name in keys:
-        complain(f"{name} is given twice", i)
+        complain(f"{name} is given twice", mark)
     else:
         try:
             keys[name] = reader(value)
         except ValueFault as fault:
             keys[name] = None
-            complain(_named(name, fault), i)
+            complain(_named(name, fault), mark)
+
+
+def _skewed(sign: str, found: va.Vector) -> str:
+    """Give the name of a skewed direction."""
+    return f"{sign}({','.join(f'{x:g}' for x in found)})"
 
 
 def _direction(item: Any, i: int, complain: Complain) -> Word | None:
     """Read a direction word: X +Y GUIDE (a,b,c)."""
     if not isinstance(item, str):
         try:
-            return Word("", va.vector(item), {})
+            found = va.vector(item)
+            return Word(_skewed("", found), found, {})
         except ValueFault as fault:
             complain(str(fault), i)
             return None
@@ -253,7 +258,7 @@ def _direction(item: Any, i: int, complain: Complain) -> Word | None:
         except ValueFault as fault:
             complain(str(fault), i)
             return None
-        return Word(f"{sign}({','.join(f'{x:g}' for x in found)})", found, {})
+        return Word(_skewed(sign, found), found, {})
     if text in {key.name for key in KEYWORDS["SUPPORT"].keys}:
         complain(f"{text} needs a value: {text}=...", i)
         return None
@@ -281,15 +286,7 @@ def read_equation(
         complain(f"name missing; {form}", None)
         return []
     record.args.append(name.upper())
-    if not re.fullmatch(r"[A-Z_][A-Z0-9_.]{0,31}", record.args[0]):
-        complain(
-            f"{name} is no name of a case (a letter, then letters, digits, _ or .)",
-            (at, at + len(name)),
-        )
-    elif record.args[0] in ex.RESERVED:
-        complain(
-            f"{name} is the name of a load set or function, not of a case", (at, at + len(name))
-        )
+    check_case_name(record, (at, at + len(name)), complain)
     start = at + text.index("=") + 1
     keys_from = len(rest)
     spaced = re.sub(r"(\s*)=(\s*)", lambda m: "=" + " " * (len(m[0]) - 1), rest)
@@ -302,17 +299,17 @@ def read_equation(
             key = match[1].upper()
             value = spaced[match.end() : stop].strip()
             span = (start + match.start(1), start + stop)
-            reader = readers.get(key)
-            if reader is None:
-                complain(_no_key(key, record.keyword), span)
-            elif key in record.keys:
-                complain(f"{key} is given twice", span)
-            else:
-                try:
-                    record.keys[key] = reader(value)
-                except ValueFault as fault:
-                    complain(_named(key, fault), span)
+            read_key(record.keys, span, (key, value), record.keyword, readers, complain)
     return read_expression(record, rest[:keys_from], start, complain)
+
+
+def check_case_name(record: Record, mark: Mark, complain: Complain) -> None:
+    """Complain of a name that no case may have."""
+    name = record.args[0]
+    if not re.fullmatch(r"[A-Z_][A-Z0-9_.]{0,31}", name):
+        complain(f"{name} is no name of a case (a letter, then letters, digits, _ or .)", mark)
+    elif name in ex.RESERVED:
+        complain(f"{name} is the name of a load set or function, not of a case", mark)
 
 
 def read_expression(
@@ -330,13 +327,3 @@ def read_expression(
         complain(str(fault), (at + fault.start, at + fault.stop))
         return []
     return [(name, at + start, at + stop) for name, start, stop in names]
-
-
-def keyword_of(word: str) -> Keyword | None:
-    """Find a keyword of the table."""
-    return KEYWORDS.get(word)
-
-
-def key_order(keyword: str) -> dict[str, Key]:
-    """Keys of a keyword in the order of the table."""
-    return {key.name: key for key in KEYWORDS[keyword].keys}

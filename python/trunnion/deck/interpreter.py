@@ -52,10 +52,17 @@ class Interpreter:
         self.model = model
         self.carried = carried
         self.faults = faults
+        self.before = 0
 
     def apply(self, record: Record) -> None:
-        """Do what one record says."""
+        """Do what one record says, unless it has a fault."""
+        self.before = len(self.faults)
         _ACTIONS[record.keyword](self, record)
+
+    def keep(self, items: list[Any], item: Any) -> None:
+        """Add an item to a list of the model when its record has no fault."""
+        if len(self.faults) == self.before:
+            items.append(item)
 
     def complain(self, record: Record, message: str, mark: Mark = None) -> None:
         """Note a fault of a record."""
@@ -82,8 +89,6 @@ def _default(run: Interpreter, record: Record) -> None:
         if run.carried.defaults.setdefault(key, value) != value:
             run.complain(record, f"{key} has another value on an earlier DEFAULT card", f"{key}=")
         settings[key.lower()] = value == "ON" if key in ("SHEAR", "EVENTS") else value
-    if "stiffen" in settings and settings["stiffen"].startswith("P"):
-        settings["stiffen"] = settings["stiffen"]
     run.model.settings = replace(run.model.settings, **settings)
 
 
@@ -126,7 +131,7 @@ def graded(name: str, keys: dict[str, Any]) -> Material:
     """Take a material from the library; keys of the card come before the library's values."""
     from trunnion.materials import library_material
 
-    found = replace(library_material(keys["GRADE"]), name=name, grade=keys["GRADE"].upper())
+    found = replace(library_material(keys["GRADE"]), name=name)
     if "E" in keys:
         found = replace(found, e=keys["E"], table=_without(found.table, e=None))
     if "ALPHA" in keys:
@@ -186,6 +191,7 @@ def _section(run: Interpreter, record: Record) -> None:
     lining, insulation = keys.get("LINING", 0.0), keys.get("INSULATION", 0.0)
     if 2.0 * lining > od - 2.0 * wall:
         run.complain(record, "LINING is more than half the bore", "LINING=")
+        return
     for key, thickness in (("LINING", lining), ("INSULATION", insulation)):
         if keys.get(f"{key}_DENSITY") and not thickness:
             run.complain(record, f"{key}_DENSITY without {key}= (its thickness)", f"{key}_DENSITY=")
@@ -273,7 +279,7 @@ def _operation(old: Operation, keys: dict[str, Any]) -> Operation:
 def _node(run: Interpreter, record: Record) -> None:
     keys = record.keys
     xyz = (keys.get("X", 0.0), keys.get("Y", 0.0), keys.get("Z", 0.0))
-    run.model.nodes.append(Node(record.args[0], xyz, record.place))
+    run.keep(run.model.nodes, Node(record.args[0], xyz, record.place))
 
 
 def _pipe(run: Interpreter, record: Record) -> None:
@@ -300,7 +306,8 @@ def _pipe(run: Interpreter, record: Record) -> None:
         run.complain(record, f"both ends are node {end}", 2)
     elif delta == (0.0, 0.0, 0.0):
         run.complain(record, "the pipe has no length")
-    run.model.pipes.append(
+    run.keep(
+        run.model.pipes,
         Pipe(
             start,
             end,
@@ -311,7 +318,7 @@ def _pipe(run: Interpreter, record: Record) -> None:
             record.keyword == "RIGID",
             keys.get("WEIGHT", 0.0),
             record.place,
-        )
+        ),
     )
 
 
@@ -363,7 +370,8 @@ def _bend(run: Interpreter, record: Record) -> None:
     size = record.args[1] if len(record.args) > 1 else None
     if size and "R" in keys:
         run.complain(record, f"{size} and R=: one of them gives the radius", "R=")
-    run.model.bends.append(
+    run.keep(
+        run.model.bends,
         Bend(
             record.args[0],
             keys.get("R"),
@@ -371,7 +379,7 @@ def _bend(run: Interpreter, record: Record) -> None:
             keys.get("K"),
             keys.get("FLANGES", 0),
             record.place,
-        )
+        ),
     )
 
 
@@ -384,14 +392,15 @@ def _spring(run: Interpreter, record: Record) -> None:
         return
     axis = keys.get("AXIS")
     if len(record.args) == 1:
-        run.model.supports.append(
-            Support(record.args[0], "spring", ks=k, axis=axis, place=record.place)
+        run.keep(
+            run.model.supports,
+            Support(record.args[0], "spring", ks=k, axis=axis, place=record.place),
         )
         return
     start, end = record.args
     if start == end:
         run.complain(record, f"both ends are node {end}", 2)
-    run.model.springs.append(Spring(start, end, k, axis, record.place))
+    run.keep(run.model.springs, Spring(start, end, k, axis, record.place))
 
 
 def _mass(run: Interpreter, record: Record) -> None:
@@ -400,12 +409,13 @@ def _mass(run: Interpreter, record: Record) -> None:
         run.complain(record, "give the mass M= or the weight W=" + ", not both" * ("M" in keys))
         return
     mass = keys["M"] if "M" in keys else keys["W"] / run.model.settings.g
-    run.model.masses.append(Mass(record.args[0], mass, record.place))
+    run.keep(run.model.masses, Mass(record.args[0], mass, record.place))
 
 
 def _anchor(run: Interpreter, record: Record) -> None:
     keys = record.keys
-    run.model.supports.append(
+    run.keep(
+        run.model.supports,
         Support(
             record.args[0],
             "anchor",
@@ -414,7 +424,7 @@ def _anchor(run: Interpreter, record: Record) -> None:
             k=keys.get("K"),
             kr=keys.get("KR"),
             place=record.place,
-        )
+        ),
     )
 
 
@@ -435,7 +445,8 @@ def _support(run: Interpreter, record: Record) -> None:
                 friction,
             )
         )
-    run.model.supports.append(
+    run.keep(
+        run.model.supports,
         Support(
             record.args[0],
             "support",
@@ -443,13 +454,14 @@ def _support(run: Interpreter, record: Record) -> None:
             record.keys.get("CNODE"),
             record.keys.get("NAME"),
             place=record.place,
-        )
+        ),
     )
 
 
 def _hanger(run: Interpreter, record: Record) -> None:
     keys = record.keys
-    run.model.supports.append(
+    run.keep(
+        run.model.supports,
         Support(
             record.args[0],
             "hanger",
@@ -458,7 +470,7 @@ def _hanger(run: Interpreter, record: Record) -> None:
             k=keys.get("RATE", 0.0),
             load=keys["LOAD"],
             place=record.place,
-        )
+        ),
     )
 
 
@@ -468,7 +480,7 @@ def _force(run: Interpreter, record: Record) -> None:
         run.complain(record, "nothing is given; write FX= ... MZ=")
         return
     fx, fy, fz, mx, my, mz = (record.keys.get(k, 0.0) for k in ("FX", "FY", "FZ", "MX", "MY", "MZ"))
-    run.model.forces.append(Force(node, name[1], (fx, fy, fz, mx, my, mz), record.place))
+    run.keep(run.model.forces, Force(node, name[1], (fx, fy, fz, mx, my, mz), record.place))
 
 
 def _displacement(run: Interpreter, record: Record) -> None:
@@ -487,6 +499,7 @@ def _displacement(run: Interpreter, record: Record) -> None:
             run.complain(
                 record, f"{key} of set {name} is given at {made[at].place} already", f"{key}="
             )
+            return
     both = tuple(new if old is None else old for old, new in zip(made[at].d, d, strict=True))
     made[at] = replace(made[at], d=both)
 
@@ -500,7 +513,7 @@ def _acceleration(run: Interpreter, record: Record) -> None:
         if known.set == name[1]:
             run.complain(record, f"set {name} is already given at {known.place}", name)
     a = (keys.get("X", 0.0), keys.get("Y", 0.0), keys.get("Z", 0.0))
-    run.model.accelerations.append(Acceleration(name[1], a, record.place))
+    run.keep(run.model.accelerations, Acceleration(name[1], a, record.place))
 
 
 def _case(run: Interpreter, record: Record) -> None:
@@ -519,7 +532,8 @@ def _case(run: Interpreter, record: Record) -> None:
     keys = record.keys
     if faulty:
         return
-    run.model.cases.append(
+    run.keep(
+        run.model.cases,
         Case(
             record.args[0],
             tuple(items),
@@ -531,7 +545,7 @@ def _case(run: Interpreter, record: Record) -> None:
             keys.get("ITERATION"),
             keys.get("SNUBBERS"),
             record.place,
-        )
+        ),
     )
 
 
@@ -578,7 +592,7 @@ def _comb(run: Interpreter, record: Record) -> None:
             run.complain(record, f"{name} is a load set; COMB sums results of cases", name)
             return
     made = Comb(record.args[0], expression, ex.format_expression(expression), record.place)
-    run.model.cases.append(made)
+    run.keep(run.model.cases, made)
 
 
 def _title(run: Interpreter, record: Record) -> None:

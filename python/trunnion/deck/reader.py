@@ -9,6 +9,7 @@ from trunnion.deck.checks import check
 from trunnion.deck.fields import (
     Fields,
     fields_of,
+    missing_keys,
     read_directions,
     read_equation,
     read_fields,
@@ -155,9 +156,7 @@ class _Reading:
                 read_directions(record, items, fields, complain)
             else:
                 read_fields(record, items, fields, complain)
-                for key in known.keys:
-                    if key.required and key.name not in record.keys:
-                        complain(f"{key.name}= is missing", None)
+                missing_keys(record, complain)
         if len(self.faults) == before:
             self.interpreter.apply(record)
         if len(self.faults) > before:

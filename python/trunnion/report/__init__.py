@@ -1,1 +1,26 @@
 """Reports: everything that formats numbers for people and files."""
+
+from pathlib import Path
+
+from trunnion.arrays import Results
+from trunnion.model import Model
+from trunnion.report.atomic import write_files
+
+
+def write_reports(
+    results: Results, model: Model, folder: Path, stem: str, *, h5: bool = False
+) -> list[Path]:
+    """Write <stem>.out, <stem>.json and on demand <stem>.h5, all of them or none."""
+    from trunnion.report.json import json_report
+    from trunnion.report.text import text_report
+
+    files = {
+        folder / f"{stem}.out": text_report(results, model),
+        folder / f"{stem}.json": json_report(results),
+    }
+    if h5:
+        from trunnion.report.hdf5 import hdf5_report
+
+        files[folder / f"{stem}.h5"] = hdf5_report(results)
+    write_files(files)
+    return list(files)

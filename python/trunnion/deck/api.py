@@ -1,0 +1,101 @@
+"""The words of the deck as calls of the Python API: the same table, the same interpreter."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from trunnion.deck.checks import check
+from trunnion.deck.fields import (
+    check_case_name,
+    fields_of,
+    missing_keys,
+    read_directions,
+    read_expression,
+    read_fields,
+    read_key,
+)
+from trunnion.deck.interpreter import Carried, Interpreter
+from trunnion.deck.keywords import KEYWORDS
+from trunnion.deck.record import Fault, Mark, Record
+from trunnion.errors import DeckError, ModelError, Problem
+from trunnion.model import Model, Place, Units
+
+_SI = Units()
+
+
+def add(
+    model: Model, keyword: str, args: tuple[Any, ...], keys: Mapping[str, Any], place: Place
+) -> None:
+    """Add one record to a model; plain numbers are SI, texts may carry a unit.
+
+    Parameters
+    ----------
+    args : positionals; a pair (word, keys) is a direction of a support with its keys.
+    keys : KEY=VALUE; None stands for a key that is not given.
+
+    Raises
+    ------
+    DeckError : with every problem of the call; the model is as before.
+    """
+    faults: list[Fault] = []
+    record = Record(keyword, place)
+
+    def complain(message: str, mark: Mark) -> None:
+        faults.append(Fault(place, record.head, message, mark))
+
+    fields = fields_of(_SI)
+    given = [(key.upper(), value) for key, value in keys.items() if value is not None]
+    form = KEYWORDS[keyword].form
+    if form == "equation":
+        for item in given:
+            read_key(record.keys, None, item, keyword, fields.readers[keyword], complain)
+        record.args.append(str(args[0]).strip().upper())
+        check_case_name(record, None, complain)
+        read_expression(record, str(args[1]), 0, complain)
+    elif form == "directions":
+        read_directions(record, [args[0], *given, *_flat(args[1:])], fields, complain)
+    else:
+        read_fields(record, [*args, *given], fields, complain)
+        missing_keys(record, complain)
+    carried = model.carried or Carried()
+    kept = carried.section, carried.material, carried.operation
+    if not faults:
+        Interpreter(model, carried, faults).apply(record)
+    if faults:
+        carried.section, carried.material, carried.operation = kept
+        raise DeckError(_problems(faults))
+    model.carried = carried
+
+
+def _flat(words: tuple[Any, ...]) -> list[Any]:
+    """Put directions and their keys in one row, as on a card."""
+    items: list[Any] = []
+    for word in words:
+        direction, keys = word, {}
+        if isinstance(word, tuple) and len(word) == 2 and isinstance(word[1], Mapping):
+            direction, keys = word
+        items.append(list(direction) if isinstance(direction, tuple) else direction)
+        items += [(str(k).upper(), v) for k, v in keys.items() if v is not None]
+    return items
+
+
+def check_model(model: Model) -> None:
+    """Raise all faults of a model that show without geometry.
+
+    Raises
+    ------
+    ModelError : with every problem, by the place of its record.
+    """
+    faults = check(model)
+    if faults:
+        raise ModelError(_problems(faults))
+
+
+def _problems(faults: list[Fault]) -> list[Problem]:
+    """Faults as problems; a fault of the whole model has no place of its own."""
+    return [
+        Problem(
+            fault.place if fault.place.file else "model",
+            f"{fault.head}: {fault.message}" if fault.head else fault.message,
+        )
+        for fault in faults
+    ]

@@ -1,0 +1,127 @@
+"""The reference page of the deck, made from the keyword table.
+
+python -m trunnion.deck.reference > docs/deck_reference.md
+"""
+
+from collections.abc import Iterator
+
+from trunnion.deck import units as un
+from trunnion.deck.cards import MAX_BYTES, MAX_CARD, MAX_DEPTH, MAX_LINE
+from trunnion.deck.keywords import ANY, TABLE, Key, Keyword
+from trunnion.model import Units
+
+_INTRODUCTION = f"""# The deck
+
+A deck is a text file (UTF-8) of cards, one a line, in free field.
+
+- Words stand apart by spaces or tabs. The first word of a card is its keyword. Keywords, keys,
+  labels and names may be written in capitals or small letters; they are kept in capitals.
+- `KEY=VALUE` gives a value. Spaces around `=` and after a comma do not matter.
+- `!` starts a comment. `&` at the end of a line continues the card on the next line.
+- A plain number is in the deck's own unit, given by the `UNITS` card. Any number may carry a unit
+  of its own: `273.1mm`, `12bar`, `203GPa`, `2kN/mm`, `7850kg/m3`, `90deg`. Products are written
+  with `.` (`kN.m`), powers with a digit (`kg/m3`). Capitals do not matter there either: `MPA` and
+  `mpa` are megapascal. Temperatures are offset units: `170C`, `338F`, `443K`.
+- Node labels are made of letters, digits, `_` and `.`. Digits followed by `N`, `M` or `F` are kept
+  for bends: a bend at 30 has a near, a mid and a far point, 30N 30M 30F, and 30 is 30F.
+- `MATERIAL`, `SECTION` and `OPERATE` carry over: they hold for the pipes that follow, until
+  changed. All other cards may stand in any order.
+- All errors of a deck are told at once, each with file, line and the words at fault. A deck with
+  an error is not solved.
+
+Limits: {MAX_LINE} characters a line, {MAX_CARD} a card, {MAX_BYTES // 10**6} MB a deck with its
+includes, {MAX_DEPTH} files deep. Only ordinary files are read.
+"""
+
+
+def page() -> str:
+    """Write the whole page."""
+    lines = [_INTRODUCTION, "## Cards", ""]
+    lines += [f"- [{k.name}](#{k.name.lower()}): {_first_sentence(k.meaning)}" for k in TABLE]
+    for keyword in TABLE:
+        lines += ["", *_card(keyword)]
+    lines += ["", *_units()]
+    return "\n".join(lines) + "\n"
+
+
+def _first_sentence(text: str) -> str:
+    """Cut a meaning for the list of cards."""
+    return text.split(". ")[0].rstrip(".")
+
+
+def _form(keyword: Keyword) -> str:
+    """Write the words of a card in their order, those that may be missing in brackets."""
+    words = [f"[{p.name}]" if p.optional else p.name for p in keyword.positionals]
+    if keyword.form == "units":
+        words = ["length", "force", "pressure", "temperature"]
+    if keyword.form == "text":
+        words = ["text" if keyword.name == "TITLE" else "file"]
+    if keyword.keys:
+        words.append("KEY=VALUE ...")
+    return " ".join([keyword.name, *words])
+
+
+def _card(keyword: Keyword) -> Iterator[str]:
+    """Write the section of one keyword."""
+    yield f"### {keyword.name}"
+    yield ""
+    yield keyword.meaning
+    yield ""
+    yield "```"
+    yield _form(keyword)
+    yield keyword.example
+    yield "```"
+    for note in keyword.notes:
+        yield ""
+        yield note
+    if keyword.positionals and keyword.form != "equation":
+        yield ""
+        for positional in keyword.positionals:
+            yield f"- `{positional.name}`: {positional.meaning}"
+    if keyword.keys:
+        yield ""
+        yield "| key | meaning | dimension or choices | without it |"
+        yield "|---|---|---|---|"
+        for key in keyword.keys:
+            yield f"| `{key.name}=` | {key.meaning} | {_values(key)} | {_without(key)} |"
+
+
+def _values(key: Key) -> str:
+    """Say what values a key takes."""
+    if key.choices:
+        return " ".join(key.choices)
+    words = {"gap": "length or angle", "vector": "(a,b,c)", "along": "pipe a-b", "node": "node"}
+    text = words.get(key.kind, key.kind)
+    if key.kind == "number":
+        text = key.dimension or "stiffness or rotational stiffness"
+    bounds = "" if key.bounds is ANY else f", {key.bounds}"
+    return text + bounds
+
+
+def _without(key: Key) -> str:
+    """Say what holds when a key is missing."""
+    return "an error" if key.required else key.default
+
+
+def _units() -> Iterator[str]:
+    """Write the table of derived units."""
+    yield "## Units"
+    yield ""
+    yield "The `UNITS` card names four units; all others follow by the unit of length, here with"
+    yield "F for the unit of force, P for pressure and T for temperature."
+    yield ""
+    yield f"length: {' '.join(un.LENGTHS)}; force: {' '.join(un.FORCES)}; pressure:"
+    yield f"{' '.join(un.PRESSURES)}; temperature: {' '.join(un.TEMPERATURES)}."
+    yield ""
+    yield "| dimension | used for | " + " | ".join(un.LENGTHS) + " |"
+    yield "|---|---|" + "---|" * len(un.LENGTHS)
+    tables = [un.derived(Units(length, "F", "P", "T")) for length in un.LENGTHS]
+    for dimension, (meaning, _, _) in un.DIMENSIONS.items():
+        cells = [table[dimension] or "-" for table in tables]
+        if dimension == "expansion":
+            cells = ["/K, or /F when T is F"] * len(un.LENGTHS)
+        yield f"| {dimension} | {meaning} | " + " | ".join(cells) + " |"
+
+
+if __name__ == "__main__":
+    print(page(), end="")

@@ -1,0 +1,100 @@
+"""Columns of the text report: aligned, no wider than the page, whole arrays at a time."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import chain
+from math import floor, log10
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from trunnion.report.units import Quantity
+
+PAGE = 132
+Words = Sequence[str | None]
+
+
+@dataclass(frozen=True, slots=True)
+class Column:
+    """One column ready to print: two lines of heading, a % form, the cells."""
+
+    head: str
+    unit: str
+    form: str
+    width: int
+    cells: Sequence[object]
+    left: bool = False
+
+    def heading(self, text: str) -> str:
+        """Set a heading as the cells are set."""
+        text = text[: self.width - (0 if self.left else 1)]
+        return text.ljust(self.width) if self.left else text.rjust(self.width)
+
+
+def words(head: str, cells: Words, *, least: int = 6, most: int = 24) -> Column:
+    """Set words flush left, as wide as the longest, with a space after them."""
+    known = [cell or "" for cell in cells]
+    width = min(max(max(map(len, known), default=0), len(head), least), most) + 1
+    return Column(head, "", f"%-{width}.{width - 1}s", width, known, left=True)
+
+
+def numbers(head: str, values: ArrayLike, quantity: Quantity, width: int = 11) -> Column:
+    """Set numbers in the unit of a quantity; what would not fit loses decimals, then goes to E."""
+    cells = np.asarray(values, dtype=np.float64) * quantity.factor
+    return plain(head, cells, quantity.decimals, width, f"[{quantity.unit}]")
+
+
+def plain(head: str, values: ArrayLike, decimals: int, width: int = 11, unit: str = "") -> Column:
+    """Set numbers as they are; NaN, a number that was not given, is a dash."""
+    cells = np.array(values, dtype=np.float64)
+    largest = float(np.abs(cells[np.isfinite(cells)]).max(initial=0.0))
+    whole = floor(log10(largest)) + 1 if largest >= 1.0 else 1
+    room = width - 3 - whole  # a space, a sign, the point
+    if room < 0:
+        return Column(head, unit, f"%{width}.{max(width - 8, 0)}e", width, cells.tolist())
+    decimals = min(decimals, room)
+    cells[np.abs(cells) < 0.5 * 10.0**-decimals] = 0.0  # no "-0.000"
+    if np.isnan(cells).any():
+        shown = ["-" if np.isnan(x) else f"{x:.{decimals}f}" for x in cells.tolist()]
+        return Column(head, unit, f"%{width}s", width, shown)
+    return Column(head, unit, f"%{width}.{decimals}f", width, cells.tolist())
+
+
+def integers(head: str, values: Sequence[int], width: int = 7) -> Column:
+    """Set whole numbers."""
+    return Column(head, "", f"%{width}d", width, values)
+
+
+def table(columns: Sequence[Column], *, none: str = "none") -> str:
+    """Print columns under their headings, or a word when there are no rows."""
+    count = len(columns[0].cells)
+    if not count:
+        return f"  {none}\n"
+    form = "  " + "".join(c.form for c in columns) + "\n"
+    cells = chain.from_iterable(zip(*(c.cells for c in columns), strict=True))
+    return headings(columns) + (form * count) % tuple(cells)
+
+
+def headings(columns: Sequence[Column]) -> str:
+    """Print the heads of columns, their units and a rule."""
+    head = "".join(c.heading(c.head) for c in columns).rstrip()
+    units = "".join(c.heading(c.unit) for c in columns).rstrip()
+    rule = "-" * sum(c.width for c in columns)
+    return "".join(f"  {line}\n" for line in (head, units, rule) if line)
+
+
+def chapter(title: str) -> str:
+    """Begin a part of the report."""
+    return f"\n\n{'=' * PAGE}\n{title}\n{'=' * PAGE}\n"
+
+
+def section(title: str, note: str = "") -> str:
+    """Begin a table."""
+    return f"\n{title}{'   ' if note else ''}{note}\n{'-' * len(title)}\n"
+
+
+def wrapped(text: str, indent: str = "  ") -> str:
+    """Break a long sentence at the page's width."""
+    import textwrap
+
+    return textwrap.fill(text, PAGE, initial_indent=indent, subsequent_indent=indent + "  ") + "\n"

@@ -1,0 +1,89 @@
+"""Loads on restraints across all cases: what each support gets, and where it is largest."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from trunnion.arrays import F8, CaseResult, System
+from trunnion.report.columns import Column, headings, numbers, plain, section, table, words
+from trunnion.report.units import ReportUnits
+from trunnion.supports import card_forces, card_states, solved
+
+NOTE = "forces and moments ON THE RESTRAINT, global; movements of the pipe at the node"
+COMPONENTS = ("FX", "FY", "FZ", "MX", "MY", "MZ")
+
+
+def restraint_summary(cases: Sequence[CaseResult], units: ReportUnits) -> str:
+    """Print a block for every support: one row a case, then the largest of each component."""
+    if not cases or not cases[0].system.cards:
+        return "\n  none\n"
+    system = cases[0].system
+    force = np.stack([-card_forces(case) for case in cases], axis=1)  # (n_card, n_case, 6)
+    node = card_nodes(system)
+    move = np.stack([solved(case).u[node, :3] for case in cases], axis=1)
+    text = section("LARGEST OF ALL") + _largest_of_all(cases, force, units)
+    return text + section("EVERY RESTRAINT", NOTE) + _blocks(cases, force, move, units)
+
+
+def card_nodes(system: System) -> list[int]:
+    """Give the node number of each card."""
+    number = {label: i for i, label in enumerate(system.labels)} | system.alias
+    return [number[card.label] for card in system.cards]
+
+
+def _quantities(force: F8, move: F8, units: ReportUnits) -> list[Column]:
+    """Columns of all rows together, so that they share decimals and width."""
+    q = units.force.showing(float(np.abs(force[..., :3]).max()))
+    m = units.moment.showing(float(np.abs(force[..., 3:]).max()))
+    d = units.movement.showing(float(np.abs(move).max()))
+    rows_f, rows_d = force.reshape(-1, 6), move.reshape(-1, 3)
+    columns = [numbers(COMPONENTS[i], rows_f[:, i], m if i > 2 else q, 12) for i in range(6)]
+    return columns + [numbers(f"D{'XYZ'[i]}", rows_d[:, i], d, 10) for i in range(3)]
+
+
+def _blocks(cases: Sequence[CaseResult], force: F8, move: F8, units: ReportUnits) -> str:
+    cards, n_case = cases[0].system.cards, len(cases)
+    worst = np.abs(force).argmax(axis=1)  # (n_card, 6): the case
+    largest = np.take_along_axis(force, worst[:, None], axis=1)
+    several = n_case > 1
+    if several:
+        force = np.concatenate([force, largest], axis=1)
+        move = np.concatenate([move, np.zeros((len(cards), 1, 3))], axis=1)
+    columns = _quantities(force, move, units)
+    rows = list(zip(*(c.cells for c in columns), strict=True))
+    per = len(rows) // len(cards)
+    states = list(zip(*(card_states(case) for case in cases), strict=True))
+    names = [case.name for case in cases]
+    head = [words("CASE", names, least=12, most=12), words("STATE", ["engaged"], least=9)]
+    row = "  " + "".join(c.form for c in head + columns) + "\n"
+    top = "  " + head[0].form + head[1].form + "".join(c.form for c in columns[:6]) + "\n"
+    where = "  " + head[0].form + head[1].form + "%12.11s" * 6 + "\n"
+    out = [headings([*head, *columns])]
+    for i, card in enumerate(cards):
+        place = f"   line {card.line}" if card.line else ""
+        out.append(f"  {card.name}{place}\n")
+        for name, state, values in zip(names, states[i], rows[i * per :], strict=False):
+            out.append(row % (name, state or "", *values))
+        if several:
+            out.append(top % ("MAX", "", *rows[i * per + n_case][:6]))
+            out.append(where % ("", "", *(names[j] for j in worst[i].tolist())))
+    return "".join(out)
+
+
+def _largest_of_all(cases: Sequence[CaseResult], force: F8, units: ReportUnits) -> str:
+    """Name support and case of the largest of each component."""
+    cards = cases[0].system.cards
+    flat = force.reshape(-1, 6)
+    worst = np.abs(flat).argmax(axis=0).tolist()
+    values = [float(flat[row, i]) for i, row in enumerate(worst)]
+    q = units.force.showing(max(map(abs, values[:3])))
+    m = units.moment.showing(max(map(abs, values[3:])))
+    shown = [v * (m if i > 2 else q).factor for i, v in enumerate(values)]
+    columns = [
+        words("", COMPONENTS, least=4),
+        plain("LARGEST", shown, max(q.decimals, m.decimals), 14),
+        words("  UNIT", [f"  {(m if i > 2 else q).unit}" for i in range(6)], least=9),
+        words("CASE", [cases[row % len(cases)].name for row in worst], least=12),
+        words("RESTRAINT", [cards[row // len(cases)].name for row in worst], most=60),
+    ]
+    return table(columns)

@@ -1,0 +1,31 @@
+"""The summary on the terminal: what a screen holds, the bad cases first."""
+
+from trunnion.arrays import Results
+from trunnion.model import Model
+from trunnion.report.summary import summary_table
+from trunnion.report.units import report_units
+from trunnion.supports import cause_of, is_good
+
+CASES, CAUSES, WARNINGS = 10, 4, 4  # lines of each
+
+
+def screen(results: Results, model: Model) -> tuple[bool, str]:
+    """Tell whether every case is certified, and the text to print."""
+    cases = results.cases
+    bad = [name for name, case in cases.items() if not is_good(case)]
+    shown = (bad + [name for name in cases if name not in bad])[:CASES]
+    lines = [results.title] if results.title else []
+    lines.append(summary_table(results, report_units(model.units), only=shown).rstrip("\n"))
+    if len(cases) > len(shown):
+        lines.append(f"  ... and {len(cases) - len(shown)} more cases in the report")
+    lines += _some([f"{name}: {cause_of(cases[name])}" for name in bad], CAUSES)
+    warnings = list(results.warnings)
+    warnings += [f"{c.name}: {text}" for c in cases.values() for text in c.warnings]
+    lines += _some([f"warning: {text}" for text in warnings], WARNINGS)
+    return not bad, "\n".join(lines)
+
+
+def _some(texts: list[str], most: int) -> list[str]:
+    """Keep the first of many messages and count the others."""
+    more = [f"  ... and {len(texts) - most} more"] if len(texts) > most else []
+    return [f"  {text}" for text in texts[:most]] + more

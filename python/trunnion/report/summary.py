@@ -1,0 +1,42 @@
+"""One line a case: converged, certified, largest movement and largest restraint load."""
+
+import numpy as np
+
+from trunnion.arrays import CaseResult, Results
+from trunnion.report.columns import Column, table, words
+from trunnion.report.units import ReportUnits
+from trunnion.supports import card_forces, is_good, solved
+
+
+def summary_table(results: Results, units: ReportUnits, *, only: list[str] | None = None) -> str:
+    """Print the cases, or those in `only`."""
+    cases = [c for c in results.cases.values() if only is None or c.name in only]
+    move, where, force, restraint = zip(*(_extremes(c, units) for c in cases), strict=True)
+    worst = [f"{c.certificate.worst:.1e}" if c.certificate else "-" for c in cases]
+    return table(
+        [
+            words("CASE", [c.name for c in cases], least=10, most=16),
+            words("STATUS", ["certified" if is_good(c) else "NOT CONVERGED" for c in cases]),
+            Column("WORST", "", "%9s", 9, worst),
+            Column("LARGEST MOVE", f"[{units.movement.unit}]", "%14s", 14, move),
+            words("  AT", where, most=14),
+            Column("LARGEST LOAD", f"[{units.force.unit}]", "%14s", 14, force),
+            words("  ON RESTRAINT", restraint, most=36),
+        ]
+    )
+
+
+def _extremes(case: CaseResult, units: ReportUnits) -> tuple[str, str, str, str]:
+    """Largest movement with its node, largest restraint force with its support."""
+    if not is_good(case):
+        return "-", "", "-", ""
+    size = np.linalg.norm(solved(case).u[:, :3], axis=1)
+    node = int(size.argmax())
+    q = units.movement.showing(float(size[node]))
+    found = [q.text(float(size[node])), f"  {case.system.labels[node]}"]
+    if not case.system.cards:
+        return found[0], found[1], "-", ""
+    load = np.linalg.norm(card_forces(case)[:, :3], axis=1)
+    card = int(load.argmax())
+    q = units.force.showing(float(load[card]))
+    return found[0], found[1], q.text(float(load[card])), f"  {case.system.cards[card].name}"

@@ -1,0 +1,66 @@
+"""The text report `.out`: input, summary, restraints, the answers of every case, their proof."""
+
+from trunnion.arrays import CaseResult, Results, System
+from trunnion.model import Model
+from trunnion.report.answers import displacement_table, element_tables
+from trunnion.report.columns import PAGE, chapter, section, wrapped
+from trunnion.report.echo import input_echo
+from trunnion.report.proof import balance_table, certificate_table, history_table, ledger_table
+from trunnion.report.restraints import restraint_summary
+from trunnion.report.states import state_table
+from trunnion.report.summary import summary_table
+from trunnion.report.units import ReportUnits, report_units
+from trunnion.supports import cause_of, is_good
+
+
+def text_report(results: Results, model: Model) -> bytes:
+    """Write the whole report."""
+    units = report_units(model.units)
+    good = [case for case in results.cases.values() if is_good(case)]
+    parts = ["TRUNNION   static analysis of piping with nonlinear supports\n"]
+    parts.append(f"{results.title or '(no title)'}\n")
+    parts.append(chapter("1  SUMMARY"))
+    parts.append(summary_table(results, units))
+    parts.append(warnings(results))
+    parts.append(chapter("2  INPUT"))
+    parts.append(input_echo(model, _system(results), units))
+    parts.append(chapter("3  LOADS ON RESTRAINTS"))
+    parts.append(restraint_summary(good, units))
+    parts.append(chapter("4  RESULTS BY CASE"))
+    parts += [_case(case, units) for case in results.cases.values()]
+    parts.append(chapter("5  WORK"))
+    work = {name: case.work for name, case in results.cases.items()}
+    parts.append(ledger_table(work | {"whole run": results.work}))
+    parts.append(f"\n{'END OF REPORT':^{PAGE}}".rstrip() + "\n")
+    return "".join(parts).encode()
+
+
+def _system(results: Results) -> System:
+    return next(iter(results.cases.values())).system
+
+
+def _case(case: CaseResult, units: ReportUnits) -> str:
+    title = f"{case.name} = {case.text}"
+    text = f"\n\n{title}\n{'=' * len(title)}\n"
+    if not is_good(case):
+        text += wrapped(f"NOT CONVERGED, no numbers: {cause_of(case)}")
+        return text + certificate_table(case) + history_table(case)
+    return text + "".join(
+        (
+            displacement_table(case, units),
+            state_table(case, units),
+            element_tables(case, units),
+            balance_table(case, units),
+            certificate_table(case),
+            history_table(case),
+        )
+    )
+
+
+def warnings(results: Results) -> str:
+    """Print the warnings of the run and of every case."""
+    text = section("WARNINGS")
+    lines = [*results.warnings]
+    for case in results.cases.values():
+        lines += [f"{case.name}: {line}" for line in case.warnings]
+    return text + ("".join(wrapped(line) for line in lines) or "  none\n")

@@ -1,0 +1,80 @@
+"""The hot header of `make demo`: what an engineer checks by hand before believing a report."""
+
+from math import pi
+
+import numpy as np
+import pytest
+
+from trunnion.arrays import SLIP
+
+G = 9.80665
+OD, WALL, INSULATION = 0.2191, 0.00818, 0.080  # NPS 8 SCH 40
+BORE = OD - 2 * WALL
+
+
+def line_weight():
+    """Weight of metal, contents and insulation [N/m], and of insulation and contents."""
+    metal = 7850 * pi / 4 * (OD**2 - BORE**2)
+    contents = 740 * pi / 4 * BORE**2
+    cover = 130 * pi * INSULATION * (OD + INSULATION)
+    return G * (metal + contents + cover), G * contents, G * cover
+
+
+def weight():
+    """Of the whole line [N]: legs less what six elbows cut off, valve and flanges."""
+    pipe, contents, cover = line_weight()
+    legs = 0.8 + 0.7 + 8.0 + 1.2 + 4.0 + 5.5 + 5.5 + 2.0 + 5.0 + 3.0 + 5.0
+    legs += 2.0 + 5.5 + 5.5 + 5.5 + 2.0 + 6.0
+    elbows = 7 * 1.5 * 8 * 0.0254 * (pi / 2 - 2)
+    body = 0.111 + 0.419 + 0.111
+    # a rigid carries its own weight, its contents and 1.75 times the insulation of the pipe
+    return pipe * (legs + elbows) + 3520.0 + body * (contents + 1.75 * cover)
+
+
+@pytest.fixture(scope="module")
+def header(run):
+    return run("hot_header")
+
+
+@pytest.mark.parametrize("case", ["SUS", "OPE", "OPE2", "COLD"])
+def test_supports_carry_the_weight(header, case):
+    answer = header[case]
+    up = sum(answer.support(label)[1] for label in {card.label for card in answer.system.cards})
+    assert up == pytest.approx(weight(), rel=1e-9)
+
+
+@pytest.mark.parametrize("case", ["SUS", "OPE", "OPE2", "COLD"])
+def test_horizontal_forces_balance(header, case):
+    answer = header[case]
+    labels = {card.label for card in answer.system.cards}
+    total = sum(answer.support(label)[[0, 2]] for label in labels)
+    assert np.abs(total).max() < 1e-4
+
+
+def test_first_rest_of_the_rack_lifts_off_when_hot(header):
+    # riser of 8 m and vessel grow by about 26 mm at the hanger; the rest is 4 m from it
+    assert not header["SUS"].is_open("70", "+Y")
+    assert header["OPE"].is_open("70", "+Y")
+    assert 0.005 < header["OPE"].u("70")[1] < 0.020
+
+
+def test_hanger_gives_way_to_the_riser(header):
+    # cold load 9.8 kN less rate 0.03 kN/mm times the movement
+    movement = header["OPE"].u("60")[1]
+    assert movement > 0.020
+    assert header["OPE"].support("60")[1] == pytest.approx(9800 - 30e3 * movement, rel=1e-12)
+
+
+def test_rests_slide_when_hot(header):
+    assert np.count_nonzero(header["OPE"].state.mode == SLIP) >= 5
+
+
+def test_friction_keeps_the_cooled_line_from_coming_back(header):
+    cold, never_hot = header["COLD"], header["SUS"]
+    assert np.abs(cold.u("90") - never_hot.u("90"))[:3].max() > 1e-4
+
+
+def test_nozzle_loads_stay_small(header):
+    load = header["OPE2"].load("10")
+    assert np.linalg.norm(load[:3]) < 15e3
+    assert np.linalg.norm(load[3:]) < 15e3
