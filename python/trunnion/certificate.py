@@ -149,8 +149,9 @@ def _elements(system: System, loads: Loads, state: State, scale: Scale) -> list[
         v[:, spring], law[:, spring], stray = _spring(system, v, tip, d, spring)
     free = loads.strain * system.length
     own, swing = largest(v[:3], law[:3]), largest(v[3:], law[3:])
-    length = floor(own, max(1e-4 * largest(move[:3], free), 1e-3 * swing))
-    angle = floor(swing, max(1e-4 * largest(move[3:]), 1e-3 * own))
+    reach = largest(d) or 1.0  # a turn and the movement that it makes over the largest element
+    length = floor(own, max(1e-4 * largest(move[:3], free), swing * reach))
+    angle = floor(swing, max(1e-4 * largest(move[3:]), own / reach))
     wrong = _six(v - law, length, angle)
     if spring.size:
         wrong[spring] = np.maximum(wrong[spring], stray / scale.force)

@@ -40,6 +40,8 @@ def measure(system: System, loads: Loads, state: State) -> Scale:
     moment = largest(state.reaction[turning]) if some else 0.0
     moment = max(moment, largest(loads.nodal[:, 3:], state.end_force[:, :, 3:]))
     force = floor(force, 1e-4 * max(largest(state.end_force[:, :, :3]), moment))
+    if force <= 1e-15 * largest(system.rigidity[:, 0] * loads.strain):
+        force = 1.0  # nothing but the round-off of free expansion
     length, angle = largest(state.u[:, :3]), largest(state.u[:, 3:])
     return Scale(
         force, max(moment, force), floor(length, 1e-3 * angle), floor(angle, 1e-3 * length)

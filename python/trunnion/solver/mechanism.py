@@ -43,6 +43,8 @@ def null_motions(structure: Structure, tangent: F8, slider_tangent: F8) -> list[
     value, turn = np.linalg.eigh(0.5 * (energy + energy.T))
     stiffest = max(structure.scale, float(structure.contacts.k.max(initial=0.0)))
     null = np.abs(value) <= ROUND_OFF * stiffest * 6 * n
+    if not null.any():
+        return []
     shapes = np.einsum("ab,ani->bni", turn[:, null], v)
     return [Motion(describe(structure.system, x), x) for x in _separate(shapes)]
 

@@ -17,7 +17,7 @@ from trunnion.solver.pattern import build_pattern
 class Forcing:
     """Loads as the kernels take them; linear, so that steps are mixtures of two.
 
-    free : (n_elem, 6) free tip deformation, global [m, rad].
+    free : (n_elem, 6) free tip deformation, element axes [m, rad].
     resultant : (n_elem, 6) of the distributed load, about end 1 [N, N m].
     nodal : (n_node, 6).
     base : (n_contact, 3), slider_base : (n_slider, 3) movement under the supports.
@@ -117,6 +117,7 @@ class Structure:
         self._supports()
         self._linear()
         self._factor: kernels.SpdFactor | None = None
+        self.shifted = self.checked = False  # a singular tangent was met; it was looked into
         self.held: tuple[F8, F8, float] | None = None  # tangents and shift in the factor
 
     def _elements(self) -> None:
@@ -145,7 +146,8 @@ class Structure:
         p, c = self.pattern, self.contacts
         val = np.zeros(len(p.row))
         if len(self.ends):
-            kernels.assemble_elements(self.k, self.d, self.ends, p.element_rank, p.colptr, val)
+            kernels.assemble_elements(
+                self.k, self.system.axes, self.d, self.ends, p.element_rank, p.colptr, val)
         closed = np.einsum("c,cai,caj->cij", c.k, c.normal, c.normal)
         kernels.add_tangents(self.at, closed, 1, p.colptr, val)
         whole = val.copy()  # with everything closed and stuck
@@ -164,6 +166,12 @@ class Structure:
         """Extent of the model [m], at least 1."""
         xyz = self.system.xyz
         return max(1.0, float(np.ptp(xyz, axis=0).max())) if len(xyz) else 1.0
+
+    @cached_property
+    def reach(self) -> float:
+        """Length of the largest element [m]; 1 where there is none."""
+        d: F8 = np.sqrt((self.d * self.d).sum(axis=1))
+        return float(d.max(initial=0.0)) or 1.0
 
     @cached_property
     def scale(self) -> float:
@@ -247,6 +255,7 @@ class Structure:
         if len(self.ends):
             end = kernels.element_end_forces(
                 self.ends,
+                self.system.axes,
                 self.d,
                 self.k,
                 forcing.free,
@@ -305,6 +314,7 @@ class Structure:
             kernels.add_tangents(self.at, tangent, 0, self.pattern.colptr, val)
             kernels.add_tangents(self.slider_at, slider_tangent, 0, self.pattern.colptr, val)
         self.held = None
+        self.shifted |= shift > 0.0
         try:
             self.rcond = self._factor.factorise(val, shift)
         except NotPositiveDefiniteError:

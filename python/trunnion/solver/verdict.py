@@ -12,7 +12,8 @@ from trunnion.solver.structure import Forcing, Point, Response, Sliding, Structu
 REFINEMENTS = 8
 SHARP = 1e-13  # next correction that ends the refinement, relative
 CHORD = 1e-4  # difference of slider tangents for which the factor at hand will do
-SLIP, OPEN = 3, 0
+SLIP, OPEN, ENGAGED = 3, 0, 1
+NOTHING = 1e-6  # a displacement that the penalty effect does not speak of [m]
 
 
 @dataclass(slots=True)
@@ -71,21 +72,23 @@ def corrections(
     structure: Structure, p: F8, point: Point, before: Response, after: Response
 ) -> tuple[float, float]:
     """Size of a correction p relative to the largest displacement and reaction."""
-    u, turn = _sizes(point.u)
-    du, dturn = _sizes(p)
+    u = _travel(structure, point.u)
+    du = _travel(structure, p)
     rotational = structure.contacts.rotational
     force = max(1.0, _largest(before.reaction[~rotational]))
     moment = max(force, _largest(before.reaction[rotational]))
     change = np.abs(after.reaction - before.reaction)
     slide = _largest(after.friction - before.friction) / force
     return (
-        max(du / max(u, 1e-300), dturn / max(turn, u, 1e-300)),
+        du / max(u, 1e-300),
         max(_largest(change[~rotational]) / force, _largest(change[rotational]) / moment, slide),
     )
 
 
-def _sizes(u: F8) -> tuple[float, float]:
-    return float(np.abs(u[:, :3]).max(initial=0.0)), float(np.abs(u[:, 3:]).max(initial=0.0))
+def _travel(structure: Structure, u: F8) -> float:
+    """Largest displacement, or what the largest rotation moves over the largest element [m]."""
+    move, turn = _largest(u[:, :3]), _largest(u[:, 3:])
+    return max(move, turn * structure.reach)
 
 
 def _largest(a: F8) -> float:
@@ -110,12 +113,11 @@ def _penalty(
     dw = structure.gather(du)
     dr = np.where(closed[:, None], response.reaction, 0.0)
     dr = dr - np.einsum("cij,cj->ci", response.tangent, dw)
-    u, _ = _sizes(point.u)
     rotational = c.rotational
     force = max(1.0, _largest(response.reaction[~rotational]))
     moment = max(force, _largest(response.reaction[rotational]))
     effect = {
-        "u": _sizes(du)[0] / max(u, 1e-300) if u else 0.0,
+        "u": _travel(structure, du) / max(_travel(structure, point.u), NOTHING),
         "R": max(_largest(dr[~rotational]) / force, _largest(dr[rotational]) / moment),
     }
     return du, dr[:n], effect
@@ -126,6 +128,7 @@ def _state(
 ) -> State:
     n = len(structure.system.contacts.node)
     m = len(structure.system.sliders.node)
+    smooth = (response.mode == OPEN) & (response.normal > 0.0)  # pressed, but mu is 0 here
     return State(
         u=point.u,
         u_low=point.low,
@@ -133,7 +136,7 @@ def _state(
         side=response.side[:n],
         reaction=response.reaction[:n],
         friction=response.friction[:m],
-        mode=response.mode[:m],
+        mode=np.where(smooth, ENGAGED, response.mode)[:m].astype(np.int32),
         normal=response.normal[:m],
         slide=response.slide[:m],
         datum=law.datum[:m].copy(),
