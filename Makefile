@@ -52,7 +52,7 @@ debug-test: $(READY)
 
 # The editable package would rebuild itself on import; here it is done once, before anything runs.
 build: $(READY)
-	@$(BIN)/ninja -C build/editable --quiet
+	@log=$$($(BIN)/ninja -C build/editable 2>&1) || { printf '%s\n' "$$log"; exit 1; }
 
 $(READY): pyproject.toml meson.build .ci/setup
 	@.ci/setup
