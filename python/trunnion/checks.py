@@ -20,6 +20,12 @@ def check_model(model: Model) -> list[Problem]:
     _pipes(model, problems)
     _springs_and_masses(model, problems)
     _supports(model, problems)
+    stiffen = model.settings.stiffen
+    given = {name for pipe in model.pipes for name in pipe.operation.p}
+    chosen = given if stiffen == "MAX" else given & {stiffen[1:]}
+    if model.bends and stiffen != "OFF" and not chosen:
+        text = f"DEFAULT: STIFFEN={stiffen}: nothing in the model gives that pressure"
+        problems.append(Problem("model", text))
     known = _known_labels(model)
     for label, place, name in standing(model):
         if label not in known:

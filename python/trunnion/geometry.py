@@ -10,7 +10,7 @@ from trunnion.bends import Corner, Legs, bend_radius, corner, find_legs, pipe_na
 from trunnion.checks import refuse
 from trunnion.errors import Problem
 from trunnion.model import Model
-from trunnion.vectors import Vec, size, sub
+from trunnion.vectors import Vec, add, size, sub
 
 BEND_POINT = re.compile(r"(\d+)[NMF]")
 LOOP_RELATIVE = 1e-6  # a loop may miss by this part of the extent ...
@@ -90,9 +90,9 @@ def place(model: Model, problems: list[Problem]) -> Geometry:
             text = f"NODE {node.label}: has other coordinates already"
             problems.append(Problem(node.place, text))
         net.put(node.label, node.xyz)
-    for pipe in model.pipes:
-        if pipe.delta is not None:
-            net.join(pipe.start, pipe.end, pipe.delta)
+    if not model.nodes:
+        net.put(_first(model, legs), (0.0, 0.0, 0.0))
+    _follow(model, net)
     _spread_all(model, legs, net, problems)
     refuse(problems)
     _check_loops(model, net, problems)
@@ -111,18 +111,47 @@ def place(model: Model, problems: list[Problem]) -> Geometry:
 def _check_bend_points(model: Model, legs: Mapping[str, Legs], problems: list[Problem]) -> None:
     """Labels such as 30N belong to bends: they must have one, and no coordinates of their own."""
     bends = {bend.node for bend in model.bends}
-    for pipe in model.pipes:
-        for label in (pipe.start, pipe.end):
-            match = BEND_POINT.fullmatch(label)
-            if match and match[1] not in bends:
-                text = f"PIPE {pipe_name(pipe)}: {label} is a point of a bend at {match[1]}"
-                problems.append(Problem(pipe.place, f"{text}, and there is no bend"))
+    labels = [(x, p.place, f"PIPE {pipe_name(p)}") for p in model.pipes for x in (p.start, p.end)]
+    for s in model.springs:
+        labels += [(x, s.place, f"SPRING {s.start}-{s.end}") for x in (s.start, s.end)]
+    for label, where, name in labels:
+        match = BEND_POINT.fullmatch(label)
+        if match and match[1] not in bends:
+            text = f"{name}: {label} is a point of a bend at {match[1]}, and there is no bend"
+            problems.append(Problem(where, text))
     for node in model.nodes:
         if BEND_POINT.fullmatch(node.label):
             text = (
                 f"NODE {node.label}: points of bends follow from the bend; place {node.label[:-1]}"
             )
             problems.append(Problem(node.place, text))
+
+
+def _first(model: Model, legs: Mapping[str, Legs]) -> str:
+    """Return the label that stands at the origin if nothing else gives it coordinates."""
+    firsts = [pipe.start for pipe in model.pipes[:1]]
+    firsts += [spring.start for spring in model.springs[:1]]
+    firsts += [support.node for support in model.supports[:1]]
+    return firsts[0][:-1] if firsts[0][:-1] in legs else firsts[0]
+
+
+def _follow(model: Model, net: _Net) -> None:
+    """Follow the pipes in the deck's order; what does not hang on anything yet becomes a graph.
+
+    Most decks are written along their lines, and this is all they need.
+    """
+    position = net.position
+    for pipe in model.pipes:
+        if pipe.delta is None:
+            continue
+        start, end = pipe.start, pipe.end
+        if start in position:
+            if end not in position:
+                net.put(end, add(position[start], pipe.delta), start)
+        elif end in position:
+            net.put(start, sub(position[end], pipe.delta), end)
+        else:
+            net.join(start, end, pipe.delta)
 
 
 def _spread_all(model: Model, legs: Mapping[str, Legs], net: _Net, problems: list[Problem]) -> None:
@@ -135,12 +164,9 @@ def _spread_all(model: Model, legs: Mapping[str, Legs], net: _Net, problems: lis
     sprung = [(vertex(s.start), vertex(s.end)) for s in model.springs]
     held = {s.node for s in model.supports} | {d.node for d in model.displacements}
     tied = [(vertex(s.node), s.cnode) for s in model.supports if s.cnode in held]
-    firsts = [pipe.start for pipe in model.pipes[:1]]
-    firsts += [spring.start for spring in model.springs[:1]]
-    firsts += [support.node for support in model.supports[:1]]
     _settle(model, waiting, net)
     _coincide(sprung, model, waiting, net)
-    net.put(firsts[0].rstrip("NMF") if firsts[0][:-1] in legs else firsts[0], (0.0, 0.0, 0.0))
+    net.put(_first(model, legs), (0.0, 0.0, 0.0))
     _settle(model, waiting, net)
     _coincide(sprung, model, waiting, net)
     _coincide([(a, b) for a, b in tied if b is not None], model, waiting, net, one_way=True)
@@ -246,19 +272,23 @@ def _check_loops(model: Model, net: _Net, problems: list[Problem]) -> None:
             while common < min(len(one), len(other)) and one[common] == other[common]:
                 common += 1
             keep = max(0, common - 1)
-            text = (
-                f"PIPE {pipe_name(pipe)}: the loop does not close: {pipe.end} reached by "
-                f"{_way(one[keep:])} and by {_way(other[keep:])} lies {1e3 * miss:.6g} mm apart"
-            )
+            way = _ways(pipe.end, one[keep:], other[keep:], closed=common > 0)
+            text = f"PIPE {pipe_name(pipe)}: {way}, {1e3 * miss:.6g} mm apart"
             problems.append(Problem(pipe.place, text))
+
+
+def _ways(end: str, one: list[str], other: list[str], *, closed: bool) -> str:
+    """Say by which two paths `end` gets two places."""
+    if len(one) > 1:
+        return f"the loop does not close: {_way(one)} and {_way(other)} reach {end}"
+    if closed:
+        return f"the loop does not close: {_way(other)} leaves from and comes back to {end}"
+    return f"the NODE card of {end} and the path {_way(other)} reach {end}"
 
 
 def _way(labels: list[str]) -> str:
     """Join the labels of a path, the middle of a long one left out."""
-    if len(labels) == 1:
-        return f"its NODE card {labels[0]}"
-    short = labels if len(labels) <= 7 else [*labels[:3], "...", *labels[-3:]]
-    return "-".join(short)
+    return "-".join(labels if len(labels) <= 7 else [*labels[:3], "...", *labels[-3:]])
 
 
 def _check_tangents(

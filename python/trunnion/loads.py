@@ -42,6 +42,7 @@ class LoadSets:
     acceleration: Mapping[str, F8]
     bare: Mapping[str, int] = field(default_factory=dict)  # T set -> pipes without it
     hangers: int = 0
+    idle: Mapping[str, tuple[str, ...]] = field(default_factory=dict)  # D set -> moves nothing
 
 
 def load_sets(model: Model, system: System) -> LoadSets:
@@ -63,6 +64,7 @@ def load_sets(model: Model, system: System) -> LoadSets:
         acceleration=_accelerations(model),
         bare=bare,
         hangers=sum(s.kind == "hanger" for s in model.supports),
+        idle=_idle(model, system),
     )
     for case in model.cases:
         if isinstance(case, Case):
@@ -130,6 +132,8 @@ def case_warnings(sets: LoadSets, case: Case) -> tuple[str, ...]:
         bare = sets.bare[name[1:]]
         pipes = "1 pipe" if bare == 1 else f"{bare} pipes"
         found.append(f"{case.name}: {name} is not given on {pipes}")
+    for name in sorted(n for n in names if n[0] == "D"):
+        found += [f"{case.name}: {text}" for text in sets.idle.get(name[1:], ())]
     return tuple(found)
 
 
@@ -259,6 +263,23 @@ def _bases(model: Model, system: System) -> dict[str, F8]:
         moved = base.setdefault(d.set, np.zeros((len(system.cards), 6)))
         moved[cards[node[d.node]]] += [x or 0.0 for x in d.d]
     return base
+
+
+def _idle(model: Model, system: System) -> dict[str, tuple[str, ...]]:
+    """Name imposed movements in directions that no support of the node holds."""
+    if not model.displacements:
+        return {}
+    contacts, node = system.contacts, node_numbers(system)
+    held = np.abs(contacts.normal).max(axis=1) > 1e-9
+    idle: dict[str, tuple[str, ...]] = {}
+    for d in model.displacements:
+        own = (contacts.node == node[d.node]) & (contacts.cnode < 0)
+        for i, word in enumerate(("DX", "DY", "DZ", "RX", "RY", "RZ")):
+            turns = contacts.rotational if i >= 3 else ~contacts.rotational
+            if d.d[i] and not held[own & turns, i % 3].any():
+                text = f"D{d.set} {word} at {d.node} moves nothing: no support there holds it"
+                idle[d.set] = (*idle.get(d.set, ()), text)
+    return idle
 
 
 def _preloads(model: Model, system: System) -> F8:
