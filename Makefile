@@ -51,8 +51,10 @@ debug-test: $(READY)
 	@$(BIN)/meson test -C build/debug --print-errorlogs
 
 # The editable package would rebuild itself on import; here it is done once, before anything runs.
+# Its importer reads bytecode but never writes any: without compileall every run compiles anew.
 build: $(READY)
 	@log=$$($(BIN)/ninja -C build/editable 2>&1) || { printf '%s\n' "$$log"; exit 1; }
+	@$(BIN)/python -m compileall -q python/trunnion
 
 $(READY): pyproject.toml meson.build .ci/setup
 	@.ci/setup
