@@ -8,7 +8,7 @@ from trunnion.bends import Corner, Legs, bend_radius, corner, find_legs, pipe_na
 from trunnion.checks import refuse
 from trunnion.coordinates import BEND_POINT, Net, locate
 from trunnion.errors import Problem
-from trunnion.model import Model
+from trunnion.model import Model, Pipe, Spring
 from trunnion.vectors import Vec, size, sub
 
 LOOP_RELATIVE = 1e-6  # a loop may miss by this part of the extent ...
@@ -49,14 +49,15 @@ def place(model: Model, problems: list[Problem]) -> Geometry:
 def _check_bend_points(model: Model, legs: Mapping[str, Legs], problems: list[Problem]) -> None:
     """Labels such as 30N belong to bends: they must have one, and no coordinates of their own."""
     bends = {bend.node for bend in model.bends}
-    labels = [(x, p.place, f"PIPE {pipe_name(p)}") for p in model.pipes for x in (p.start, p.end)]
-    for s in model.springs:
-        labels += [(x, s.place, f"SPRING {s.start}-{s.end}") for x in (s.start, s.end)]
-    for label, where, name in labels:
-        match = BEND_POINT.fullmatch(label)
-        if match and match[1] not in bends:
-            text = f"{name}: {label} is a point of a bend at {match[1]}, and there is no bend"
-            problems.append(Problem(where, text))
+    records: list[Pipe | Spring] = [*model.pipes, *model.springs]
+    for record in records:
+        for label in (record.start, record.end):
+            match = BEND_POINT.fullmatch(label)
+            if match and match[1] not in bends:
+                card = "PIPE" if isinstance(record, Pipe) else "SPRING"
+                text = f"{card} {record.start}-{record.end}: {label} is a point of a bend at"
+                text = f"{text} {match[1]}, and there is no bend"
+                problems.append(Problem(record.place, text))
     for node in model.nodes:
         if BEND_POINT.fullmatch(node.label):
             text = (
