@@ -50,7 +50,8 @@ def add(
         read_directions(record, [args[0], *given, *_flat(args[1:])], fields, complain)
     else:
         read_fields(record, [*args, *given], fields, complain)
-        missing_keys(record, complain)
+        if not faults:
+            missing_keys(record, complain)
     carried = model.carried or Carried()
     kept = carried.section, carried.material, carried.operation
     if not faults:

@@ -105,13 +105,13 @@ def _bound_keys(
             complain(f"ALONG goes with GUIDE or LIMIT, not with {word}", i)
         else:
             read_key(keys, i, (name, value), "SUPPORT", readers, complain)
+    unfit = () if word in PIPE_DIRECTIONS else ("ALONG", "MU", "KF") if turning else ("ALONG",)
     seen: set[str] = set()
     for i, name, value in common:
         if name in seen:
             complain(f"{name} is given twice", i)
         seen.add(name)
-        misfit = name in ("MU", "KF") if turning else name == "ALONG"
-        if name not in keys and not (misfit and word not in PIPE_DIRECTIONS):
+        if name not in keys and name not in unfit:
             read_key(keys, i, (name, value), "SUPPORT", readers, complain)
     return keys
 

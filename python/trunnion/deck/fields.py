@@ -1,12 +1,12 @@
 """One card, or one call of the Python API, to a Record: words to values by the keyword table."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from functools import lru_cache
 from typing import Any
 
 from trunnion.deck import units as un
 from trunnion.deck import values as va
-from trunnion.deck.keywords import KEYWORDS, Positional
+from trunnion.deck.keywords import KEYWORDS, PRESSURE_SETS, TEMPERATURE_SETS, Positional
 from trunnion.deck.record import Mark, Record
 from trunnion.deck.values import Reader, WordError, nearest
 from trunnion.model import Direction, Units
@@ -45,6 +45,7 @@ def fields_of(units: Units) -> Fields:
 
 
 _POSITIONALS: dict[str, tuple[Positional, ...]] = {k: w.positionals for k, w in KEYWORDS.items()}
+_FAMILIES = frozenset((*TEMPERATURE_SETS, *PRESSURE_SETS))
 _LABELS: dict[str, str] = {}
 
 
@@ -59,7 +60,7 @@ def read_label(value: object) -> str:
     return str(found)
 
 
-def read_fields(record: Record, items: Iterable[Any], fields: Fields, complain: Complain) -> None:
+def read_fields(record: Record, items: list[Any], fields: Fields, complain: Complain) -> None:
     """Fill the positionals and keys of a record of form "fields".
 
     Parameters
@@ -82,7 +83,7 @@ def read_fields(record: Record, items: Iterable[Any], fields: Fields, complain: 
         else:
             complain(_one_too_many(str(item), record.keyword, len(wanted)), i)
     missing = [p for p in wanted[len(args) :] if not p.optional]
-    if missing:
+    if missing and len(keys) + len(args) == len(items):  # else a misspelling
         complain(f"{' and '.join(_described(p) for p in missing)} missing", None)
 
 
@@ -107,7 +108,12 @@ def _no_key(name: str, keyword: str) -> str:
         return "= without a key on its left"
     if not keys:
         return f"{name} is no key of {keyword}, which has none"
-    return f"{name} is no key of {keyword}{nearest(name, keys)} (keys: {' '.join(keys)})"
+    if not name.isidentifier():
+        return f"{name} before = is no key"
+    listed = " ".join(k for k in keys if k not in _FAMILIES)
+    for first, last in (("T1", "T9"), ("P1", "P9")):
+        listed += f" {first}-{last}" if first in keys else ""
+    return f"{name} is no key of {keyword}{nearest(name, keys)} (keys: {listed})"
 
 
 def _one_too_many(word: str, keyword: str, most: int) -> str:

@@ -152,7 +152,8 @@ class _Reading:
                 read_directions(record, items, fields, complain)
             else:
                 read_fields(record, items, fields, complain)
-                missing_keys(record, complain)
+                if len(self.faults) == before:  # else one may be misspelled
+                    missing_keys(record, complain)
         if len(self.faults) == before:
             apply(self.context, record)
         if len(self.faults) > before:
