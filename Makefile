@@ -3,7 +3,6 @@
 #   make test     every test                        (make test ARGS="-k friction -x")
 #   make lint     ruff, mypy, fortitude
 #   make bench    the rack lines of benchmarks/     (make bench NODES="50 200" CASES=fric1)
-MAKEFLAGS += --no-print-directory
 BIN := .venv/bin
 READY := .venv/.ready
 
