@@ -3,7 +3,6 @@
 #   make test     every test                        (make test ARGS="-k friction -x")
 #   make lint     ruff, mypy, fortitude
 #   make bench    the rack lines of benchmarks/     (make bench NODES="50 200" CASES=fric1)
-MAKEFLAGS += --no-print-directory
 BIN := .venv/bin
 READY := .venv/.ready
 
@@ -51,8 +50,10 @@ debug-test: $(READY)
 	@$(BIN)/meson test -C build/debug --print-errorlogs
 
 # The editable package would rebuild itself on import; here it is done once, before anything runs.
+# Its importer reads bytecode but never writes any: without compileall every run compiles anew.
 build: $(READY)
-	@$(BIN)/ninja -C build/editable --quiet
+	@log=$$($(BIN)/ninja -C build/editable 2>&1) || { printf '%s\n' "$$log"; exit 1; }
+	@$(BIN)/python -m compileall -q python/trunnion
 
 $(READY): pyproject.toml meson.build .ci/setup
 	@.ci/setup

@@ -2,8 +2,9 @@
 
 import numpy as np
 
-from trunnion.arrays import ARC, F8, CaseResult, Loads, System
+from trunnion.arrays import F8, CaseResult, Loads, System
 from trunnion.deformation import load_moment
+from trunnion.interior import section_axes
 from trunnion.supports import solved
 
 
@@ -44,13 +45,9 @@ def reaction_sum(case: CaseResult) -> F8:
 
 def end_axes(system: System) -> F8:
     """(n_elem, 2, 3, 3) rows ex ey ez at both ends; ex is the pipe's tangent there."""
-    axes = np.repeat(system.axes[:, None], 2, axis=1)
-    c, s = np.cos(system.angle)[:, None], np.sin(system.angle)[:, None]
-    arc = (system.kind == ARC)[:, None]
-    ex, ey = system.axes[:, 0], system.axes[:, 1]
-    axes[:, 1, 0] = np.where(arc, c * ex + s * ey, ex)
-    axes[:, 1, 1] = np.where(arc, c * ey - s * ex, ey)
-    return axes
+    every = np.arange(len(system.kind))
+    ends = [section_axes(system, every, np.full(len(every), end)) for end in (0.0, 1.0)]
+    return np.stack(ends, axis=1)
 
 
 def local_forces(system: System, end_force: F8) -> F8:

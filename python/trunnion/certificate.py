@@ -147,16 +147,31 @@ def _elements(system: System, loads: Loads, state: State, scale: Scale) -> list[
     stray = np.zeros(0)
     if spring.size:
         v[:, spring], law[:, spring], stray = _spring(system, v, tip, d, spring)
-    free = loads.strain * system.length
-    own, swing = largest(v[:3], law[:3]), largest(v[3:], law[3:])
-    reach = largest(d) or 1.0  # a turn and the movement that it makes over the largest element
-    length = floor(own, max(1e-4 * largest(move[:3], free), swing * reach))
-    angle = floor(swing, max(1e-4 * largest(move[3:]), own / reach))
-    wrong = _six(v - law, length, angle)
+    length, angle = _deformed(system, loads, move, v, law, tip)
+    wrong = np.maximum(
+        np.abs(v - law)[:3].max(axis=0) / length, np.abs(v - law)[3:].max(axis=0) / angle
+    )
     if spring.size:
         wrong[spring] = np.maximum(wrong[spring], stray / scale.force)
     name = _element(system)
     return [_item("element_balance", balance, name), _item("element_law", wrong, name)]
+
+
+def _deformed(system: System, loads: Loads, move: F8, v: F8, law: F8, tip: F8) -> tuple[F8, F8]:
+    """(n_elem,) denominators of the element law [m, rad].
+
+    The largest deformation of all elements; at least 1e-4 of the largest relative movement and
+    free expansion, 1e-3 of the other kind over 1 m, and 1e-5 of what the element's own end force
+    would do if it were all across: in a force along the pipe that is the size of the round-off.
+    """
+    own, swing = largest(v[:3], law[:3]), largest(v[3:], law[3:])
+    free = loads.strain * system.length
+    length = floor(own, max(1e-4 * largest(move[:3], free), 1e-3 * swing))
+    angle = floor(swing, max(1e-4 * largest(move[3:]), 1e-3 * own))
+    reach, ei = system.length, system.rigidity[:, 2]
+    soft = np.divide(reach * system.flex, ei, out=np.zeros_like(reach), where=ei > 0.0)
+    turn = soft * (reach * np.abs(tip[:3]).max(axis=0) + np.abs(tip[3:]).max(axis=0))
+    return np.maximum(length, 1e-5 * reach * turn), np.maximum(angle, 1e-5 * turn)
 
 
 def _spring(system: System, v: F8, tip: F8, d: F8, at: deformation.Index) -> tuple[F8, F8, F8]:

@@ -4,7 +4,7 @@ from math import inf, isfinite
 
 from trunnion.bends import pipe_name
 from trunnion.errors import ModelError, Problem
-from trunnion.model import Material, Model, Place, Section
+from trunnion.model import Direction, Material, Model, Place, Section
 from trunnion.vectors import size
 
 
@@ -20,6 +20,12 @@ def check_model(model: Model) -> list[Problem]:
     _pipes(model, problems)
     _springs_and_masses(model, problems)
     _supports(model, problems)
+    stiffen = model.settings.stiffen
+    given = {name for pipe in model.pipes for name in pipe.operation.p}
+    chosen = given if stiffen == "MAX" else given & {stiffen[1:]}
+    if model.bends and stiffen != "OFF" and not chosen:
+        text = f"DEFAULT: STIFFEN={stiffen}: nothing in the model gives that pressure"
+        problems.append(Problem("model", text))
     known = _known_labels(model)
     for label, place, name in standing(model):
         if label not in known:
@@ -143,6 +149,7 @@ def _springs_and_masses(model: Model, problems: list[Problem]) -> None:
 
 
 def _supports(model: Model, problems: list[Problem]) -> None:
+    fine: set[Direction] = set()  # most supports of a large model say the same
     for s in model.supports:
         bad: list[str] = []
         if s.cnode == s.node:
@@ -154,6 +161,9 @@ def _supports(model: Model, problems: list[Problem]) -> None:
         if s.kind == "support" and not s.directions:
             bad.append("no direction is given")
         for d in s.directions:
+            if d in fine:
+                continue
+            found = len(bad)
             if not all(g >= 0.0 for g in d.gap):
                 bad.append(f"{d.word}: a gap is negative")
             if any(k is not None and not 0.0 < k < inf for k in (d.k, d.kf)):
@@ -162,4 +172,6 @@ def _supports(model: Model, problems: list[Problem]) -> None:
                 bad.append(f"{d.word}: MU is negative")
             if d.vector is not None and not 0.0 < size(d.vector) < inf:
                 bad.append(f"{d.word}: is no direction")
+            if len(bad) == found:
+                fine.add(d)
         problems += [Problem(s.place, f"{s.kind.upper()} {s.node}: {text}") for text in bad]

@@ -114,9 +114,9 @@ def slider_errors(system: System, loads: Loads, state: State, scale: Scale) -> d
     kept = np.where(sticks, datum, now + friction / s.kf)
     moved = _size(slide - (now - datum)) / slip
     left = _size(state.datum_end.T - kept) / slip
-    legal = sticks | slips | (mode == OPEN) | ((mode == ENGAGED) & (capacity == 0.0))
-    touching = np.abs(normal) > NOTHING * load
-    legal &= np.where(shut, (mode != OPEN) | ~touching, mode == OPEN)
+    legal = sticks | slips | (mode == OPEN) | ((mode == ENGAGED) & (capacity <= NOTHING * load))
+    carries = capacity > NOTHING * load  # a closed slider without capacity may say anything
+    legal &= np.where(shut, (mode != OPEN) | ~carries, mode == OPEN)
     return {
         "friction": coulomb,
         "direction": sine,

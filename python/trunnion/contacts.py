@@ -60,6 +60,7 @@ class _Lists:
     rows: list[Row] = field(default_factory=list)
     slides: list[Slide] = field(default_factory=list)
     planes: dict[tuple[Vec, ...], list[Vec]] = field(default_factory=dict)
+    words: dict[Direction, Row] = field(default_factory=dict)
 
     def card(self, card: Card, node: int, cnode: int) -> int:
         self.cards.append(card)
@@ -80,7 +81,7 @@ def build_contacts(
     """Give the contacts and sliders of all supports; raise all problems at once."""
     lists = _Lists()
     problems: list[Problem] = []
-    along = PipeAxes(model, elements, parts, index)
+    along = PipeAxes(model, elements, parts, index, up)
     for s in model.supports:
         cnode = -1 if s.cnode is None else index[s.cnode]
         card = lists.card(
@@ -89,13 +90,13 @@ def build_contacts(
             cnode,
         )
         if s.kind == "support":
-            found = len(problems)
-            rows = [
-                _direction(s, d, card, model.settings, along, up, problems) for d in s.directions
-            ]
-            if len(problems) == found:
-                _add_slides(s, rows, model.settings, lists)
-                lists.rows += rows
+            try:
+                rows = _support(s, card, along, lists, model.settings)
+            except ValueError as error:
+                problems.append(Problem(s.place, f"SUPPORT {s.node}: {error}"))
+                continue
+            _add_slides(s, rows, model.settings, lists)
+            lists.rows += rows
         else:
             lists.rows += _fixed(s, card, model.settings, up)
     _held_nodes(model, index, lists)
@@ -109,46 +110,48 @@ def card_name(s: Support) -> str:
     return " ".join([s.node, *words])
 
 
-def _direction(
-    s: Support,
-    d: Direction,
-    card: int,
-    settings: Settings,
-    along: PipeAxes,
-    up: Vec,
-    problems: list[Problem],
-) -> Row:
-    """Give the contact of one direction word."""
+def _support(
+    s: Support, card: int, along: PipeAxes, lists: _Lists, settings: Settings
+) -> list[Row]:
+    """Give the contacts of a SUPPORT card; raise ValueError for what cannot be."""
+    rows: list[Row] = []
+    for d in s.directions:
+        if d not in lists.words:
+            lists.words[d] = _word(d, settings)
+        row = lists.words[d]
+        normals = row.normals
+        if not normals:
+            try:
+                normals = _pipe_normals(d.word, along.at(s.node, d.along), along.up)
+            except ValueError as error:
+                raise ValueError(f"{d.word}: {error}") from error
+            if len(normals) == 2 and d.gap[0] != d.gap[1]:
+                raise ValueError(f"{d.word}: round a vertical pipe there is one radial gap")
+        rows.append(Row(card, row.rotational, normals, *row[3:]))
+    return rows
+
+
+def _word(d: Direction, settings: Settings) -> Row:
+    """Give the contact of a direction word, without normals where they depend on the pipe."""
     word = d.word
     bare = word[1:] if word[:1] in ("+", "-") else word
     rotational = bare in WORDS[3:]
-    normals: tuple[Vec, ...] = (ZERO,)
-    gap = d.gap
+    normals: tuple[Vec, ...] = ()
     if d.vector is not None:
         normals = (unit(d.vector),)
     elif bare in WORDS:
         normals = (AXES[WORDS.index(bare) % 3],)
-    elif word in ("GUIDE", "LIMIT"):
-        try:
-            axis = along.at(s.node, d.along)
-        except ValueError as error:
-            problems.append(Problem(s.place, f"SUPPORT {s.node}: {word}: {error}"))
-        else:
-            normals = _pipe_normals(word, axis, up)
-            if len(normals) == 2 and gap[0] != gap[1]:
-                text = f"SUPPORT {s.node}: GUIDE: round a vertical pipe there is one radial gap"
-                problems.append(Problem(s.place, text))
-    else:
-        text = f"SUPPORT {s.node}: direction {word} is not one of X +X -X ... RX ... GUIDE LIMIT"
-        problems.append(Problem(s.place, text))
+    elif word not in ("GUIDE", "LIMIT"):
+        raise ValueError(f"direction {word} is not one of X +X -X ... RX ... GUIDE LIMIT")
+    gap = d.gap
     if word.startswith("+"):
         gap = (gap[0], inf)
     elif word.startswith("-"):
         gap = (inf, gap[1])
-    stiffness = (settings.kr if rotational else settings.k) if d.k is None else d.k
+    k = (settings.kr if rotational else settings.k) if d.k is None else d.k
     mu = 0.0 if rotational else settings.mu if d.mu is None else d.mu
     kf = settings.kf if d.kf is None else d.kf
-    return Row(card, rotational, normals, gap, stiffness, d.k is None, d.word, mu, kf)
+    return Row(-1, rotational, normals, gap, k, d.k is None, word, mu, kf)
 
 
 def _pipe_normals(word: str, axis: Vec, up: Vec) -> tuple[Vec, ...]:

@@ -46,9 +46,10 @@ def build_elements(
     """Describe the rows of `numbering` by arrays."""
     rows = numbering.rows
     n = len(rows)
-    ends = np.array([(r.start, r.end) for r in rows], dtype=np.int32).reshape(-1, 2)
-    kind = np.array([r.kind for r in rows], dtype=np.int32)
-    source = np.array([r.source for r in rows], dtype=np.int32)
+    start, end, kind, source = (
+        np.array([row[i] for row in rows], dtype=np.int32) for i in range(4)
+    )
+    ends = np.stack([start, end], axis=1)
     run = _runs(model, geometry, xyz, ends, source)
     length = np.linalg.norm(run, axis=1)
     axes = straight_axes(run, length, up)

@@ -1,18 +1,16 @@
-"""Coordinates: from NODE cards or the origin along the pipes, round closed loops and bends."""
+"""Placed labels: coordinates of nodes and bend points, loops and tangents checked."""
 
-import re
-from collections import deque
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from math import hypot
 
 from trunnion.bends import Corner, Legs, bend_radius, corner, find_legs, pipe_name, turn_at
 from trunnion.checks import refuse
+from trunnion.coordinates import BEND_POINT, Net, locate
 from trunnion.errors import Problem
-from trunnion.model import Model
+from trunnion.model import Model, Pipe, Spring
 from trunnion.vectors import Vec, size, sub
 
-BEND_POINT = re.compile(r"(\d+)[NMF]")
 LOOP_RELATIVE = 1e-6  # a loop may miss by this part of the extent ...
 LOOP_ABSOLUTE = 1e-9  # ... plus this [m]
 
@@ -25,57 +23,6 @@ class Geometry:
     corners: dict[str, Corner]
 
 
-@dataclass(slots=True)
-class _Net:
-    """Labels as a graph; `edges` lead from a label to (label, offset), `parent` back to a root.
-
-    A bend's own label is its tangent intersection here.
-    """
-
-    position: dict[str, Vec] = field(default_factory=dict)
-    parent: dict[str, str | None] = field(default_factory=dict)
-    edges: dict[str, list[tuple[str, Vec]]] = field(default_factory=dict)
-    fresh: deque[str] = field(default_factory=deque)
-
-    def join(self, a: str, b: str, offset: Vec) -> None:
-        """Say that b lies at a + offset."""
-        x, y, z = offset
-        self.edges.setdefault(a, []).append((b, offset))
-        self.edges.setdefault(b, []).append((a, (-x, -y, -z)))
-        if a in self.position:
-            self.fresh.append(a)
-        if b in self.position:
-            self.fresh.append(b)
-
-    def put(self, label: str, xyz: Vec, parent: str | None = None) -> None:
-        """Place a label that has no coordinates yet."""
-        if label not in self.position:
-            self.position[label] = xyz
-            self.parent[label] = parent
-            self.fresh.append(label)
-
-    def spread(self) -> None:
-        """Place all that hangs on labels with coordinates."""
-        position, fresh = self.position, self.fresh
-        while fresh:
-            a = fresh.popleft()
-            x, y, z = position[a]
-            for b, (dx, dy, dz) in self.edges.get(a, ()):
-                if b not in position:
-                    position[b] = (x + dx, y + dy, z + dz)
-                    self.parent[b] = a
-                    fresh.append(b)
-
-    def path(self, label: str) -> list[str]:
-        """Labels from the root to `label`."""
-        way: list[str] = []
-        at: str | None = label
-        while at is not None:
-            way.append(at)
-            at = self.parent[at]
-        return way[::-1]
-
-
 def place(model: Model, problems: list[Problem]) -> Geometry:
     """Give every label its coordinates; raise all problems of this phase at once.
 
@@ -84,16 +31,7 @@ def place(model: Model, problems: list[Problem]) -> Geometry:
     legs = find_legs(model, problems)
     _check_bend_points(model, legs, problems)
     refuse(problems)
-    net = _Net()
-    for node in model.nodes:
-        if net.position.get(node.label, node.xyz) != node.xyz:
-            text = f"NODE {node.label}: has other coordinates already"
-            problems.append(Problem(node.place, text))
-        net.put(node.label, node.xyz)
-    for pipe in model.pipes:
-        if pipe.delta is not None:
-            net.join(pipe.start, pipe.end, pipe.delta)
-    _spread_all(model, legs, net, problems)
+    net = locate(model, legs, problems)
     refuse(problems)
     _check_loops(model, net, problems)
     corners = {label: _corner(model, leg, net, problems) for label, leg in legs.items()}
@@ -111,12 +49,15 @@ def place(model: Model, problems: list[Problem]) -> Geometry:
 def _check_bend_points(model: Model, legs: Mapping[str, Legs], problems: list[Problem]) -> None:
     """Labels such as 30N belong to bends: they must have one, and no coordinates of their own."""
     bends = {bend.node for bend in model.bends}
-    for pipe in model.pipes:
-        for label in (pipe.start, pipe.end):
+    records: list[Pipe | Spring] = [*model.pipes, *model.springs]
+    for record in records:
+        for label in (record.start, record.end):
             match = BEND_POINT.fullmatch(label)
             if match and match[1] not in bends:
-                text = f"PIPE {pipe_name(pipe)}: {label} is a point of a bend at {match[1]}"
-                problems.append(Problem(pipe.place, f"{text}, and there is no bend"))
+                card = "PIPE" if isinstance(record, Pipe) else "SPRING"
+                text = f"{card} {record.start}-{record.end}: {label} is a point of a bend at"
+                text = f"{text} {match[1]}, and there is no bend"
+                problems.append(Problem(record.place, text))
     for node in model.nodes:
         if BEND_POINT.fullmatch(node.label):
             text = (
@@ -125,94 +66,7 @@ def _check_bend_points(model: Model, legs: Mapping[str, Legs], problems: list[Pr
             problems.append(Problem(node.place, text))
 
 
-def _spread_all(model: Model, legs: Mapping[str, Legs], net: _Net, problems: list[Problem]) -> None:
-    """Place every label: pipes first, then springs, the origin, and what CNODE= alone names."""
-
-    def vertex(label: str) -> str:
-        return f"{label}F" if label in legs else label
-
-    waiting = dict(legs)
-    sprung = [(vertex(s.start), vertex(s.end)) for s in model.springs]
-    held = {s.node for s in model.supports} | {d.node for d in model.displacements}
-    tied = [(vertex(s.node), s.cnode) for s in model.supports if s.cnode in held]
-    firsts = [pipe.start for pipe in model.pipes[:1]]
-    firsts += [spring.start for spring in model.springs[:1]]
-    firsts += [support.node for support in model.supports[:1]]
-    _settle(model, waiting, net)
-    _coincide(sprung, model, waiting, net)
-    net.put(firsts[0].rstrip("NMF") if firsts[0][:-1] in legs else firsts[0], (0.0, 0.0, 0.0))
-    _settle(model, waiting, net)
-    _coincide(sprung, model, waiting, net)
-    _coincide([(a, b) for a, b in tied if b is not None], model, waiting, net, one_way=True)
-    for pipe in model.pipes:
-        lost = [label for label in (pipe.start, pipe.end) if label not in net.position]
-        if lost:
-            name = f"{'RIGID' if pipe.rigid else 'PIPE'} {pipe_name(pipe)}"
-            text = f"{name}: nothing gives the coordinates of {' and '.join(lost)}"
-            problems.append(Problem(pipe.place, f"{text}; write a NODE card or join it"))
-    for spring in model.springs:
-        ends = (spring.start, spring.end)
-        lost = [label for label in ends if vertex(label) not in net.position]
-        if lost:
-            text = f"nothing gives the coordinates of {' and '.join(lost)}; write a NODE card"
-            problems.append(Problem(spring.place, f"SPRING {spring.start}-{spring.end}: {text}"))
-
-
-def _settle(model: Model, waiting: dict[str, Legs], net: _Net) -> None:
-    """Spread along pipes; as soon as both legs of a bend have a direction, place its points."""
-    progress = True
-    while progress:
-        net.spread()
-        progress = False
-        for label, legs in list(waiting.items()):
-            a, b = (_vector(model, i, net) for i in (legs.near, legs.far))
-            if a is None or b is None:
-                continue
-            pipe = model.pipes[legs.near]
-            a = turn_at(label, pipe, a, near=True)
-            b = turn_at(label, model.pipes[legs.far], b, near=False)
-            radius = bend_radius(legs.bend, model.sections[pipe.section])
-            made = corner(legs, (0.0, 0.0, 0.0), a, b, radius)
-            del waiting[label]
-            if made is not None:
-                for point, offset in zip("NMF", (made.n, made.m, made.f), strict=True):
-                    net.join(label, label + point, offset)
-            progress = True
-
-
-def _coincide(
-    pairs: list[tuple[str, str]],
-    model: Model,
-    waiting: dict[str, Legs],
-    net: _Net,
-    *,
-    one_way: bool = False,
-) -> None:
-    """Place labels joined by springs (or CNODE=) at their partner if they have no coordinates."""
-    progress = True
-    while progress:
-        progress = False
-        for a, b in pairs:
-            if (a in net.position) != (b in net.position):
-                known, other = (a, b) if a in net.position else (b, a)
-                if one_way and known == b:
-                    continue
-                net.put(other, net.position[known], known)
-                _settle(model, waiting, net)
-                progress = True
-
-
-def _vector(model: Model, i: int, net: _Net) -> Vec | None:
-    """Start-to-end vector of a pipe, if known."""
-    pipe = model.pipes[i]
-    if pipe.delta is not None:
-        return pipe.delta
-    if pipe.start in net.position and pipe.end in net.position:
-        return sub(net.position[pipe.end], net.position[pipe.start])
-    return None
-
-
-def _corner(model: Model, legs: Legs, net: _Net, problems: list[Problem]) -> Corner | None:
+def _corner(model: Model, legs: Legs, net: Net, problems: list[Problem]) -> Corner | None:
     label = legs.bend.node
     near, far = model.pipes[legs.near], model.pipes[legs.far]
     vectors = [sub(net.position[p.end], net.position[p.start]) for p in (near, far)]
@@ -226,7 +80,7 @@ def _corner(model: Model, legs: Legs, net: _Net, problems: list[Problem]) -> Cor
     return made
 
 
-def _check_loops(model: Model, net: _Net, problems: list[Problem]) -> None:
+def _check_loops(model: Model, net: Net, problems: list[Problem]) -> None:
     """Check that pipes have a length and that loops end where they began."""
     spans = [[xyz[i] for xyz in net.position.values()] for i in range(3)]
     extent = max(max(span) - min(span) for span in spans)
@@ -246,23 +100,27 @@ def _check_loops(model: Model, net: _Net, problems: list[Problem]) -> None:
             while common < min(len(one), len(other)) and one[common] == other[common]:
                 common += 1
             keep = max(0, common - 1)
-            text = (
-                f"PIPE {pipe_name(pipe)}: the loop does not close: {pipe.end} reached by "
-                f"{_way(one[keep:])} and by {_way(other[keep:])} lies {1e3 * miss:.6g} mm apart"
-            )
+            way = _ways(pipe.end, one[keep:], other[keep:], closed=common > 0)
+            text = f"PIPE {pipe_name(pipe)}: {way}, {1e3 * miss:.6g} mm apart"
             problems.append(Problem(pipe.place, text))
+
+
+def _ways(end: str, one: list[str], other: list[str], *, closed: bool) -> str:
+    """Say by which two paths `end` gets two places."""
+    if len(one) > 1:
+        return f"the loop does not close: {_way(one)} and {_way(other)} reach {end}"
+    if closed:
+        return f"the loop does not close: {_way(other)} leaves from and comes back to {end}"
+    return f"the NODE card of {end} and the path {_way(other)} reach {end}"
 
 
 def _way(labels: list[str]) -> str:
     """Join the labels of a path, the middle of a long one left out."""
-    if len(labels) == 1:
-        return f"its NODE card {labels[0]}"
-    short = labels if len(labels) <= 7 else [*labels[:3], "...", *labels[-3:]]
-    return "-".join(short)
+    return "-".join(labels if len(labels) <= 7 else [*labels[:3], "...", *labels[-3:]])
 
 
 def _check_tangents(
-    model: Model, corners: Mapping[str, Corner], net: _Net, problems: list[Problem]
+    model: Model, corners: Mapping[str, Corner], net: Net, problems: list[Problem]
 ) -> None:
     """Check that no bend uses up more than its tangents."""
     for label, c in corners.items():

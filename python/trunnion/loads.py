@@ -2,15 +2,15 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from math import pi
 
 import numpy as np
 
-from trunnion.arrays import ARC, F8, Loads, System
+from trunnion.arrays import F8, Loads, System
 from trunnion.checks import refuse
 from trunnion.errors import Problem
-from trunnion.expansion import OutsideTableError, free_strain
 from trunnion.model import Case, Model, Term
+from trunnion.movements import bases, idle, node_numbers
+from trunnion.strains import pressure_effects, pressures, strains
 from trunnion.weights import line_weights
 
 
@@ -42,27 +42,29 @@ class LoadSets:
     acceleration: Mapping[str, F8]
     bare: Mapping[str, int] = field(default_factory=dict)  # T set -> pipes without it
     hangers: int = 0
+    idle: Mapping[str, tuple[str, ...]] = field(default_factory=dict)  # D set -> moves nothing
 
 
 def load_sets(model: Model, system: System) -> LoadSets:
     """Evaluate all load sets once; raise what the cases ask for and is not there."""
     problems: list[Problem] = []
-    strain, bare = _strains(model, system, problems)
-    elongation, opening = _pressure_effects(model, system)
+    strain, bare = strains(model, system, problems)
+    elongation, opening = pressure_effects(model, system)
     sets = LoadSets(
         up=system.up,
         weight=line_weights(model, system),
         lump=_lumps(model, system),
         strain=strain,
-        pressure=_pressures(model, system),
+        pressure=pressures(model, system),
         elongation=elongation,
         opening=opening,
         force=_forces(model, system),
-        base=_bases(model, system),
+        base=bases(model, system),
         preload=_preloads(model, system),
         acceleration=_accelerations(model),
         bare=bare,
         hangers=sum(s.kind == "hanger" for s in model.supports),
+        idle=idle(model, system),
     )
     for case in model.cases:
         if isinstance(case, Case):
@@ -130,6 +132,8 @@ def case_warnings(sets: LoadSets, case: Case) -> tuple[str, ...]:
         bare = sets.bare[name[1:]]
         pipes = "1 pipe" if bare == 1 else f"{bare} pipes"
         found.append(f"{case.name}: {name} is not given on {pipes}")
+    for name in sorted(n for n in names if n[0] == "D"):
+        found += [f"{case.name}: {text}" for text in sets.idle.get(name[1:], ())]
     return tuple(found)
 
 
@@ -169,96 +173,12 @@ def _lumps(model: Model, system: System) -> F8:
     return lump
 
 
-def node_numbers(system: System) -> dict[str, int]:
-    """Return the node number of every label."""
-    return {label: i for i, label in enumerate(system.labels)} | system.alias
-
-
-def _strains(
-    model: Model, system: System, problems: list[Problem]
-) -> tuple[dict[str, F8], dict[str, int]]:
-    """Free thermal strain by set; no strain where an element has no such temperature."""
-    names = sorted({name for pipe in model.pipes for name in pipe.operation.t})
-    rows = {name: [0.0] * (len(model.pipes) + 1) for name in names}
-    bare = dict.fromkeys(names, 0)
-    known: dict[tuple[str, float, float], float] = {}
-    for i, pipe in enumerate(model.pipes):
-        for name in names:
-            t = pipe.operation.t.get(name)
-            if t is None:
-                bare[name] += 1
-                continue
-            key = (pipe.material, t, pipe.operation.tref)
-            if key not in known:
-                material = model.materials[pipe.material]
-                known[key] = 0.0
-                try:
-                    known[key] = free_strain(material, t, pipe.operation.tref)
-                except OutsideTableError as error:
-                    text = f"MATERIAL {material.name}: T{name} of {pipe.start}-{pipe.end}: {error}"
-                    problems.append(Problem(pipe.place, text))
-            rows[name][i] = known[key]
-    return {name: np.array(row)[system.source] for name, row in rows.items()}, bare
-
-
-def _pressures(model: Model, system: System) -> dict[str, F8]:
-    names = sorted({name for pipe in model.pipes for name in pipe.operation.p})
-    return {
-        name: np.array([*(p.operation.p.get(name, 0.0) for p in model.pipes), 0.0])[system.source]
-        for name in names
-    }
-
-
-def _pressure_effects(model: Model, system: System) -> tuple[F8, F8]:
-    """Free strain and curvature of closed-end pipe by pressure, times EA/P.
-
-    The end thrust P pi ri^2 gives the axial stress s = P ri^2/(ro^2 - ri^2) and, with the hoop
-    stress 2 s on average, the strain s (1 - 2 nu)/E.
-
-    A bend also opens.  In the torus (Timoshenko and Woinowsky-Krieger, Theory of Plates and
-    Shells, art. 108 b) the membrane forces are N_axial = P r/2 everywhere and
-    N_hoop = (P r/2) (2 R + r sin f)/(R + r sin f), f from the crown.  Let the angle of the bend
-    change by the part w.  A fibre at rho = R + r sin f with strain e(f) moves outwards by
-    rho (e - w).  Its slope round the section at the crown (f = 0) must be r e_hoop cos f, or the
-    section would kink there: r (e - w) + R e' = r e_hoop at f = 0.  With
-    e = P r (1 - 2 nu)/(2 E t), R e'/r = nu P r/(2 E t) and e_hoop = P r (2 - nu)/(2 E t):
-    w = -P r/(2 E t) = -s/E, whatever R and nu.  The change of curvature is w/R.  Betti's theorem
-    gives the same: the bore of a bend that a moment closes loses volume, pressure opens it.
-    """
-    settings = model.settings
-    nothing = np.zeros(len(system.ends))
-    if settings.bourdon == "OFF":
-        return nothing, nothing
-    nu = np.array([*(model.materials[p.material].nu for p in model.pipes), 0.0])[system.source]
-    bore = system.od - 2.0 * system.wall
-    thrust = 0.25 * pi * bore**2
-    elongation = thrust * (1.0 - 2.0 * nu)
-    arcs = system.kind == ARC
-    if settings.bourdon == "OPENING" and arcs.any():
-        return elongation, np.where(arcs, -thrust / np.where(arcs, system.radius, 1.0), 0.0)
-    return elongation, nothing
-
-
 def _forces(model: Model, system: System) -> dict[str, F8]:
     node = node_numbers(system)
     force: dict[str, F8] = {}
     for f in model.forces:
         force.setdefault(f.set, np.zeros((len(system.xyz), 6)))[node[f.node]] += f.f
     return force
-
-
-def _bases(model: Model, system: System) -> dict[str, F8]:
-    """Movement of the ground under the cards of a node; a card on a CNODE follows that node."""
-    node = node_numbers(system)
-    cards: dict[int, list[int]] = {}
-    for i, card in enumerate(system.cards):
-        if card.cnode is None:
-            cards.setdefault(node[card.label], []).append(i)
-    base: dict[str, F8] = {}
-    for d in model.displacements:
-        moved = base.setdefault(d.set, np.zeros((len(system.cards), 6)))
-        moved[cards[node[d.node]]] += [x or 0.0 for x in d.d]
-    return base
 
 
 def _preloads(model: Model, system: System) -> F8:

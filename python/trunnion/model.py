@@ -359,15 +359,15 @@ class Model:
         """Add a spring hanger: RATE= LOAD=."""
         self._add("HANGER", (node,), keys)
 
-    def force(self, node: Label, set: str, **keys: Value) -> None:  # noqa: A002
+    def force(self, node: Label, set: str, **keys: Value) -> None:
         """Add a nodal force of set F1 to F9: FX= ... MZ=."""
         self._add("FORCE", (node, set), keys)
 
-    def displacement(self, node: Label, set: str, **keys: Value) -> None:  # noqa: A002
+    def displacement(self, node: Label, set: str, **keys: Value) -> None:
         """Impose a displacement of set D1 to D9: DX= ... RZ=."""
         self._add("DISPLACEMENT", (node, set), keys)
 
-    def acceleration(self, set: str, **keys: Value) -> None:  # noqa: A002
+    def acceleration(self, set: str, **keys: Value) -> None:
         """Give the uniform acceleration of set U1 to U3 in g: X= Y= Z=."""
         self._add("ACCELERATION", (set,), keys)
 

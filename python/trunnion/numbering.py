@@ -6,7 +6,8 @@ from typing import NamedTuple
 from trunnion.arrays import ARC, SPRING, STRAIGHT, Part
 from trunnion.bends import VANISHED, Corner
 from trunnion.checks import standing
-from trunnion.geometry import BEND_POINT, Geometry
+from trunnion.coordinates import BEND_POINT
+from trunnion.geometry import Geometry
 from trunnion.model import Model
 from trunnion.vectors import size, sub
 

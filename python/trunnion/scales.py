@@ -21,7 +21,10 @@ def largest(*arrays: F8) -> float:
 
 
 def floor(own: float, kin: float) -> float:
-    """Denominator: the own size, a small part of what it is the round-off of, or one."""
+    """Denominator: the own size, or a small part of its kin where that is more; else one.
+
+    Below 1e-18 m or rad and 1e-6 N or N m (`measure`) a size is round-off: it counts as zero.
+    """
     return max(own, kin) or 1.0
 
 
@@ -29,20 +32,26 @@ def measure(system: System, loads: Loads, state: State) -> Scale:
     """Natural sizes of one answer.
 
     Force: largest support force or non-thermal load, at least 1e-4 of the largest end force and
-    of the largest moment over 1 m.  Moment: the largest one, or that force times 1 m.  Length
-    and angle: the largest displacement and rotation, at least 1e-3 of each other over 1 m.
+    of the largest moment over 1 m, and 1e-6 of what would hold the largest free strain.  Moment:
+    the largest one, or that force times 1 m.  Length and angle: the largest displacement and
+    rotation, at least 1e-3 of each other over 1 m.
     """
     turning = system.contacts.rotational
     some = bool(turning.any())
     push = state.reaction[~turning] if some else state.reaction
     load = loads.dist * system.length[:, None]
-    force = largest(push, state.friction, load, loads.nodal[:, :3])
     moment = largest(state.reaction[turning]) if some else 0.0
     moment = max(moment, largest(loads.nodal[:, 3:], state.end_force[:, :, 3:]))
-    force = floor(force, 1e-4 * max(largest(state.end_force[:, :, :3]), moment))
-    if force <= 1e-15 * largest(system.rigidity[:, 0] * loads.strain):
-        force = 1.0  # nothing but the round-off of free expansion
-    length, angle = largest(state.u[:, :3]), largest(state.u[:, 3:])
+    stiff = system.rigidity[:, 0]
+    held = float(stiff.min(where=stiff > 0.0, initial=1e12)) * largest(loads.strain)
+    kin = max(1e-4 * largest(state.end_force[:, :, :3]), 1e-4 * moment, 1e-6 * held)
+    force = largest(push, state.friction, load, loads.nodal[:, :3])
+    force = floor(_real(force, 1e-6), _real(kin, 1e-6))
+    length, angle = (_real(largest(u), 1e-18) for u in (state.u[:, :3], state.u[:, 3:]))
     return Scale(
         force, max(moment, force), floor(length, 1e-3 * angle), floor(angle, 1e-3 * length)
     )
+
+
+def _real(size: float, round_off: float) -> float:
+    return size if size > round_off else 0.0

@@ -17,8 +17,14 @@ class PipeAxes:
     """Tangents of the pipes at the nodes where a support asks for them."""
 
     def __init__(
-        self, model: Model, elements: Elements, parts: tuple[Part, ...], index: Mapping[str, int]
+        self,
+        model: Model,
+        elements: Elements,
+        parts: tuple[Part, ...],
+        index: Mapping[str, int],
+        up: Vec,
     ) -> None:
+        self.up = up
         self._index = index
         labels = {
             s.node for s in model.supports for d in s.directions if d.word in ("GUIDE", "LIMIT")

@@ -417,6 +417,21 @@ def test_reaction_of_an_open_contact_is_caught():
     assert certificate.where == "contact_state at support 40 +Z"
 
 
+@pytest.mark.parametrize("mode", [OPEN, ENGAGED])
+def test_without_friction_a_closed_slider_is_free(mode):
+    system, loads, state = SCENE
+    state, nodal = copy.deepcopy(state), loads.nodal.copy()
+    s = system.sliders
+    np.add.at(nodal[:, :3], s.node, state.friction)
+    on = s.cnode >= 0
+    np.subtract.at(nodal[:, :3], s.cnode[on], state.friction[on])
+    state.friction[:] = 0.0
+    state.datum_end = state.datum + state.slide
+    state.mode[:] = np.where(state.mode == OPEN, OPEN, mode)
+    certificate = check(system, dataclasses.replace(loads, nodal=nodal, mux=0.0), state)
+    assert certificate.worst < 1e-12, certificate
+
+
 def test_no_kernel_and_no_solver_is_imported():
     code = (
         "import sys, trunnion.certificate\n"

@@ -62,12 +62,28 @@ def test_closed_loop_is_accepted_within_its_tolerance() -> None:
     placed(model(*(pipe(a, b, x, y, 0) for a, b, x, y in square)))
 
 
-def test_open_loop_names_both_paths() -> None:
-    square = [("1", "2", 1, 0), ("2", "3", 0, 1), ("3", "4", -1, 0), ("4", "1", 0, -1.001)]
-    with pytest.raises(ModelError, match="does not close") as caught:
-        placed(model(*(pipe(a, b, x, y, 0) for a, b, x, y in square)))
-    (problem,) = caught.value.problems
-    assert "4 reached by 1-4 and by 1-2-3-4 lies 1 mm apart" in problem.text
+SQUARE = {("1", "2"): (1, 0), ("2", "3"): (0, 1), ("3", "4"): (-1, 0), ("4", "1"): (0, -1.001)}
+
+
+@pytest.mark.parametrize(
+    ("order", "said"),
+    [
+        ((0, 1, 2, 3), "PIPE 4-1: the loop does not close: 1-2-3-4-1 leaves from and comes back"),
+        ((0, 1, 3, 2), "PIPE 3-4: the loop does not close: 1-4 and 1-2-3-4 reach 4, 1 mm apart"),
+    ],
+)
+def test_open_loop_names_both_paths(order: tuple[int, ...], said: str) -> None:
+    sides = [pipe(*ends, *d, 0) for ends, d in SQUARE.items()]
+    with pytest.raises(ModelError, match=said) as caught:
+        placed(model(*(sides[i] for i in order)))
+    assert len(caught.value.problems) == 1
+
+
+def test_node_card_that_disagrees_with_the_pipes_is_named() -> None:
+    made = model(pipe("10", "20", 1, 0, 0), pipe("20", "30", 1, 0, 0))
+    made.nodes = [Node("10", (0.0, 0.0, 0.0)), Node("30", (2.5, 0.0, 0.0))]
+    with pytest.raises(ModelError, match="NODE card of 30 and the path 10-20-30 reach 30, 500 mm"):
+        placed(made)
 
 
 def test_bend_points_of_a_quarter_turn() -> None:

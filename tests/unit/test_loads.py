@@ -197,6 +197,19 @@ def test_displacements_move_all_supports_on_the_ground_of_a_node() -> None:
     assert other.base.tolist() == [*[[0.0] * 6] * 3, [0, 0.02, 0, 0, 0, 0]]
 
 
+def test_movement_that_no_support_follows_is_named() -> None:
+    made = model()
+    made.supports.append(Support("30", "support", (Direction("+Y"),)))
+    made.displacements = [
+        Displacement("30", "1", (0.01, 0.02, None, 0.0, None, None)),
+        Displacement("10", "1", (0.01, 0.02, None, 0.0, None, 0.1)),
+    ]
+    sets = load_sets(made, build_system(made))
+    assert case_warnings(sets, case("D1")) == (
+        "C: D1 DX at 30 moves nothing: no support there holds it",
+    )
+
+
 def test_hanger_load_is_its_own_set() -> None:
     made = model()
     made.supports.append(Support("30", "hanger", k=1e5, load=7e3))

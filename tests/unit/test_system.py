@@ -441,6 +441,14 @@ def test_unknown_cnode_is_an_error_not_a_new_node() -> None:
         build_system(made)
 
 
+@pytest.mark.parametrize("stiffen", ["P3", "MAX"])
+def test_stiffening_by_a_pressure_that_is_not_there_is_named(stiffen: str) -> None:
+    made = model(*(replace(p, operation=Operation()) for p in ELBOW), bends=(Bend("30", 0.5),))
+    made.settings = Settings(stiffen=stiffen)
+    with pytest.raises(ModelError, match=f"STIFFEN={stiffen}: nothing in the model gives"):
+        build_system(made)
+
+
 def test_radial_guide_has_one_gap() -> None:
     with pytest.raises(ModelError, match="round a vertical pipe there is one radial gap"):
         line(Direction("GUIDE", gap=(0.001, 0.002)), along=(0, 6, 0))

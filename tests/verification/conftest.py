@@ -9,6 +9,7 @@ import pytest
 
 import trunnion
 from trunnion.arrays import OPEN, CaseResult, Results
+from trunnion.interior import points
 from trunnion.model import Model
 from trunnion.supports import card_forces
 
@@ -93,6 +94,18 @@ class Answer:
         e = self.element(start, end)
         turned = at * self.system.angle[e]
         return np.cos(turned) * self.system.axes[e, 0] + np.sin(turned) * self.system.axes[e, 1]
+
+    def interior(self, label: str) -> tuple[np.ndarray, np.ndarray]:
+        """Displacement and section force N Vy Vz T My Mz in the middle of a bend (30M)."""
+        return self._point(self.system.mid[label], 0.5)
+
+    def along(self, start: str, end: str, fraction: float) -> tuple[np.ndarray, np.ndarray]:
+        """Displacement and section force at a part of the length of an element."""
+        return self._point(self.element(start, end), fraction)
+
+    def _point(self, element: int, fraction: float) -> tuple[np.ndarray, np.ndarray]:
+        at = points(self.result, np.array([element]), np.array([fraction]))
+        return at.displacement[0], at.section_force[0]
 
 
 class Run:

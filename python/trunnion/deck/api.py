@@ -4,16 +4,11 @@ from collections.abc import Mapping
 from typing import Any
 
 from trunnion.deck.checks import check
-from trunnion.deck.fields import (
-    check_case_name,
-    fields_of,
-    missing_keys,
-    read_directions,
-    read_expression,
-    read_fields,
-    read_key,
-)
-from trunnion.deck.interpreter import Carried, Interpreter
+from trunnion.deck.context import Carried, Context
+from trunnion.deck.directions import read_directions
+from trunnion.deck.equations import check_case_name, read_expression
+from trunnion.deck.fields import fields_of, missing_keys, read_fields, read_key
+from trunnion.deck.interpreter import apply
 from trunnion.deck.keywords import KEYWORDS
 from trunnion.deck.record import Fault, Mark, Record
 from trunnion.errors import DeckError, ModelError, Problem
@@ -43,7 +38,7 @@ def add(
         faults.append(Fault(place, record.head, message, mark))
 
     fields = fields_of(_SI)
-    given = [(key.upper(), value) for key, value in keys.items() if value is not None]
+    given = [(k.upper(), _plain(v)) for k, v in keys.items() if v is not None]
     form = KEYWORDS[keyword].form
     if form == "equation":
         for item in given:
@@ -55,11 +50,12 @@ def add(
         read_directions(record, [args[0], *given, *_flat(args[1:])], fields, complain)
     else:
         read_fields(record, [*args, *given], fields, complain)
-        missing_keys(record, complain)
+        if not faults:
+            missing_keys(record, complain)
     carried = model.carried or Carried()
     kept = carried.section, carried.material, carried.operation
     if not faults:
-        Interpreter(model, carried, faults).apply(record)
+        apply(Context(model, carried, faults), record)
     if faults:
         carried.section, carried.material, carried.operation = kept
         raise DeckError(_problems(faults))
@@ -70,12 +66,22 @@ def _flat(words: tuple[Any, ...]) -> list[Any]:
     """Put directions and their keys in one row, as on a card."""
     items: list[Any] = []
     for word in words:
-        direction, keys = word, {}
+        direction: Any = word
+        keys: Mapping[str, Any] = {}
         if isinstance(word, tuple) and len(word) == 2 and isinstance(word[1], Mapping):
             direction, keys = word
-        items.append(list(direction) if isinstance(direction, tuple) else direction)
-        items += [(str(k).upper(), v) for k, v in keys.items() if v is not None]
+        if not isinstance(direction, str):
+            direction = f"({','.join(str(float(x)) for x in direction)})"
+        items.append(direction)
+        items += [(str(k).upper(), _plain(v)) for k, v in keys.items() if v is not None]
     return items
+
+
+def _plain(value: Any) -> Any:
+    """Make lists and arrays tuples of numbers; all else stays."""
+    if isinstance(value, (str, int, float)) or not hasattr(value, "__iter__"):
+        return value
+    return tuple(value)
 
 
 def check_model(model: Model) -> None:

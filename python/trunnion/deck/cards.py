@@ -90,18 +90,22 @@ def _text_of(path: Path, deck: Deck, place: Place, card: Card | None) -> str | N
         with os.fdopen(number, "rb") as stream:
             facts = os.fstat(stream.fileno())
             if not stat.S_ISREG(facts.st_mode):
-                return refuse(f"{path} is no ordinary file")
+                refuse(f"{path} is no ordinary file")
+                return None
             left = MAX_BYTES - deck.bytes
             data = stream.read(left + 1) if facts.st_size <= left else b" " * (left + 1)
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or "not a path"
-        return refuse(f"cannot read {path}: {reason}")
+        refuse(f"cannot read {path}: {reason}")
+        return None
     deck.files += 1
     deck.bytes += len(data)
     if deck.bytes > MAX_BYTES:
-        return refuse(f"{path}: the deck with its includes is over {MAX_BYTES // 10**6} MB")
+        refuse(f"{path}: the deck with its includes is over {MAX_BYTES // 10**6} MB")
+        return None
     if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
-        return refuse(f"{path} is UTF-16 text; save it as UTF-8")
+        refuse(f"{path} is UTF-16 text; save it as UTF-8")
+        return None
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -184,16 +188,19 @@ def _include(card: Card, chain: tuple[str, ...], deck: Deck) -> None:
     if len(name) > 1 and name[0] == name[-1] and name[0] in "\"'":
         name = name[1:-1]
     if not name:
-        return refuse("the name of a file is missing")
+        refuse("the name of a file is missing")
+        return
     path = Path(card.file).parent / name
     identity = _identity(path)
     if identity in chain:
-        return refuse(f"{name} includes itself")
+        refuse(f"{name} includes itself")
+        return
     if len(chain) > MAX_DEPTH:
-        return refuse(f"files are nested more than {MAX_DEPTH} deep")
+        refuse(f"files are nested more than {MAX_DEPTH} deep")
+        return
     if deck.files >= MAX_FILES:
-        return refuse(f"more than {MAX_FILES} files")
+        refuse(f"more than {MAX_FILES} files")
+        return
     text = _text_of(path, deck, card.place, card)
     if text is not None:
         _gather(text, str(path), (*chain, identity), deck)
-    return None

@@ -143,7 +143,7 @@ def _supports(model: Model, broken: frozenset[str] | set[str]) -> Iterator[Fault
             if pipes is None:
                 pipes = {(p.start, p.end) for p in model.pipes}
             a, _, b = direction.along.partition("-")
-            if a in broken or b in broken or (a, b) in pipes and support.node in broken:
+            if a in broken or b in broken or ((a, b) in pipes and support.node in broken):
                 continue
             if (a, b) not in pipes and (b, a) not in pipes:
                 names = {f"{p}-{q}" for p, q in pipes}

@@ -36,7 +36,7 @@ _TOKEN = re.compile(
 )
 
 
-class ExpressionFault(ValueError):
+class ExpressionError(ValueError):
     """A fault with its place in the text: characters `start` to `stop`."""
 
     def __init__(self, message: str, start: int, stop: int) -> None:
@@ -66,8 +66,8 @@ class _Parser:
         """Raise a fault at a token, by default the next one."""
         i = self.at if token is None else token
         if i < len(self.tokens):
-            raise ExpressionFault(message, self.tokens[i][2], self.tokens[i][3])
-        raise ExpressionFault(message, max(0, self.end - 1), self.end)
+            raise ExpressionError(message, self.tokens[i][2], self.tokens[i][3])
+        raise ExpressionError(message, max(0, self.end - 1), self.end)
 
     def take(self, wanted: str) -> None:
         """Step over a token that must be there."""
@@ -164,7 +164,7 @@ def parse(text: str) -> tuple[Expression, list[tuple[str, int, int]]]:
     parser = _Parser(text)
     expression = parser.sum()
     if parser.at < len(parser.tokens):
-        kind, word, *_ = parser.tokens[parser.at]
+        word = parser.tokens[parser.at][1]
         if word == ")":
             parser.fail(") has no (")
         hint = "; * binds a number on the left of a name" if word == "*" else ""

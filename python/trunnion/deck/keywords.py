@@ -72,8 +72,15 @@ class Keyword:
     example: str = ""
 
 
-def _number(name: str, meaning: str, dimension: str, default: str = "", **more: object) -> Key:
-    return Key(name, meaning, dimension, default=default, **more)  # type: ignore[arg-type]
+def _number(
+    name: str,
+    meaning: str,
+    dimension: str = "number",
+    default: str = "",
+    bounds: Bounds = ANY,
+    required: bool = False,
+) -> Key:
+    return Key(name, meaning, dimension, default=default, bounds=bounds, required=required)
 
 
 def _choice(name: str, meaning: str, choices: tuple[str, ...], default: str = "") -> Key:
@@ -100,7 +107,7 @@ _OPERATION = (
 )
 _RUN = (
     *(_number(d, f"{d[1]} from first to second node", "length", "0") for d in ("DX", "DY", "DZ")),
-    _number("LENGTH", "length along DIR", "length", bounds=POSITIVE),
+    _number("LENGTH", "length along DIR", "length", "", POSITIVE),
     Key("DIR", "direction of the run, any length", kind="vector"),
     Key("SECTION", "section from here on", kind="name", default="the current one"),
     Key("MATERIAL", "material from here on", kind="name", default="the current one"),
@@ -112,18 +119,20 @@ _NAME = Key("NAME", "name of the support in reports", kind="text", card_wide=Tru
 _K = "stiffness of translations"
 _AXIS = Key("AXIS", "direction of the spring's own x", kind="vector", default="global axes")
 _SPRINGS = (
+    *(_number(f"K{a}", f"stiffness along {a}", "stiffness", "0", NOT_NEGATIVE) for a in "XYZ"),
     *(
-        _number(f"K{a}", f"stiffness along {a}", "stiffness", "0", bounds=NOT_NEGATIVE)
-        for a in "XYZ"
-    ),
-    *(
-        _number(f"KR{a}", f"stiffness about {a}", "rotational stiffness", "0", bounds=NOT_NEGATIVE)
+        _number(f"KR{a}", f"stiffness about {a}", "rotational stiffness", "0", NOT_NEGATIVE)
         for a in "XYZ"
     ),
 )
 
 TABLE: tuple[Keyword, ...] = (
-    Keyword("TITLE", "Title of the model: the rest of the card.", form="text", example="TITLE Hot oil header"),
+    Keyword(
+        "TITLE",
+        "Title of the model: the rest of the card.",
+        form="text",
+        example="TITLE Hot oil header",
+    ),
     Keyword(
         "UNITS",
         "Units of all plain numbers of the deck; the first card but TITLE.",
@@ -142,18 +151,39 @@ TABLE: tuple[Keyword, ...] = (
         "DEFAULT",
         "Choices for the whole model, wherever the card stands.",
         keys=(
-            _number("MU", "friction of every resting and directional support that states none", "number", "0", bounds=FRICTION),
-            _number("K", "stiffness k_p of rigid supports", "stiffness", "1e12 N/m", bounds=POSITIVE),
-            _number("KR", "stiffness of rigid rotational supports", "rotational stiffness", "1e12 N.m/rad", bounds=POSITIVE),
-            _number("KF", "elastic stick stiffness k_f", "stiffness", "1e8 N/m", bounds=POSITIVE),
+            _number(
+                "MU",
+                "friction of every resting and directional support that states none",
+                "number",
+                "0",
+                FRICTION,
+            ),
+            _number("K", "stiffness k_p of rigid supports", "stiffness", "1e12 N/m", POSITIVE),
+            _number(
+                "KR",
+                "stiffness of rigid rotational supports",
+                "rotational stiffness",
+                "1e12 N.m/rad",
+                POSITIVE,
+            ),
+            _number("KF", "elastic stick stiffness k_f", "stiffness", "1e8 N/m", POSITIVE),
             _choice("SHEAR", "shear flexibility (Timoshenko, shear area A/2)", ON_OFF, "ON"),
             _choice("UP", "axis against gravity", ("Y", "Z"), "Y"),
-            _number("G", "acceleration of gravity", "gravity", "9.80665 m/s2", bounds=POSITIVE),
-            _choice("STIFFEN", "pressure that stiffens bends", ("OFF", "MAX", *PRESSURE_SETS), "OFF"),
-            _choice("BOURDON", "pressure elongates pipe; and opens bends", ("OFF", "ELONGATION", "OPENING"), "OFF"),
+            _number("G", "acceleration of gravity", "gravity", "9.80665 m/s2", POSITIVE),
+            _choice(
+                "STIFFEN", "pressure that stiffens bends", ("OFF", "MAX", *PRESSURE_SETS), "OFF"
+            ),
+            _choice(
+                "BOURDON",
+                "pressure elongates pipe; and opens bends",
+                ("OFF", "ELONGATION", "OPENING"),
+                "OFF",
+            ),
             _choice("FRICTION", "one slider a contact, or one a card", FRICTIONS, "CONTACT"),
             _choice("ITERATION", "iteration of nonlinear cases", ITERATIONS, "NEWTON"),
-            _choice("EVENTS", "split a step where a gapped contact with friction closes", ON_OFF, "OFF"),
+            _choice(
+                "EVENTS", "split a step where a gapped contact with friction closes", ON_OFF, "OFF"
+            ),
         ),
         example="DEFAULT MU=0.3",
     ),
@@ -163,13 +193,20 @@ TABLE: tuple[Keyword, ...] = (
         (Positional("name", "name", "name of the material"),),
         (
             Key("GRADE", "row of the library of materials", kind="text"),
-            _number("E", "modulus of elasticity", "modulus", "of the GRADE", bounds=POSITIVE),
+            _number("E", "modulus of elasticity", "modulus", "of the GRADE", POSITIVE),
             _number("NU", "Poisson's ratio", "number", "0.3", bounds=Bounds(0.0, 0.5)),
             _number("ALPHA", "coefficient of thermal expansion", "expansion", "0, or of the GRADE"),
-            _number("DENSITY", "density", "density", "0, or of the GRADE", bounds=NOT_NEGATIVE),
-            _number("TREF", "temperature from which mean ALPHA of PROPERTY cards count", "temperature", "20 C"),
+            _number("DENSITY", "density", "density", "0, or of the GRADE", NOT_NEGATIVE),
+            _number(
+                "TREF",
+                "temperature from which mean ALPHA of PROPERTY cards count",
+                "temperature",
+                "20 C",
+            ),
         ),
-        notes=("MATERIAL with the name of an earlier card and no key makes that material current again.",),
+        notes=(
+            "MATERIAL with the name of an earlier card and no key makes that one current again.",
+        ),
         example="MATERIAL A106B E=203GPa NU=0.3 ALPHA=11.7e-6 DENSITY=7850",
     ),
     Keyword(
@@ -178,7 +215,7 @@ TABLE: tuple[Keyword, ...] = (
         (Positional("name", "name", "name of an earlier MATERIAL"),),
         (
             _number("T", "temperature of the point", "temperature", required=True),
-            _number("E", "modulus of elasticity at T", "modulus", bounds=POSITIVE),
+            _number("E", "modulus of elasticity at T", "modulus", "", POSITIVE),
             _number("ALPHA", "mean coefficient of expansion from TREF to T", "expansion"),
         ),
         example="PROPERTY A106B T=200 E=191GPa ALPHA=12.2e-6",
@@ -188,18 +225,26 @@ TABLE: tuple[Keyword, ...] = (
         "A pipe cross section, current for the pipes that follow.",
         (Positional("name", "name", "name of the section"),),
         (
-            _number("OD", "outside diameter", "length", bounds=POSITIVE),
-            _number("WALL", "wall thickness", "length", bounds=POSITIVE),
+            _number("OD", "outside diameter", "length", "", POSITIVE),
+            _number("WALL", "wall thickness", "length", "", POSITIVE),
             Key("NPS", "nominal size in inches, with SCH", kind="text"),
             Key("DN", "nominal diameter in mm, with SCH", kind="text"),
             Key("SCH", "schedule of the wall: 40, STD, XS, 10S", kind="text"),
-            _number("FLUID", "density of the contents", "density", "0", bounds=NOT_NEGATIVE),
-            _number("LINING", "thickness of the lining inside", "length", "0", bounds=NOT_NEGATIVE),
-            _number("LINING_DENSITY", "density of the lining", "density", "0", bounds=NOT_NEGATIVE),
-            _number("INSULATION", "thickness of the insulation", "length", "0", bounds=NOT_NEGATIVE),
-            _number("INSULATION_DENSITY", "density of the insulation", "density", "0", bounds=NOT_NEGATIVE),
-            _number("WEIGHT", "further weight per length", "line load", "0", bounds=NOT_NEGATIVE),
-            _number("CORROSION", "corrosion allowance, for code checks only", "length", "0", bounds=NOT_NEGATIVE),
+            _number("FLUID", "density of the contents", "density", "0", NOT_NEGATIVE),
+            _number("LINING", "thickness of the lining inside", "length", "0", NOT_NEGATIVE),
+            _number("LINING_DENSITY", "density of the lining", "density", "0", NOT_NEGATIVE),
+            _number("INSULATION", "thickness of the insulation", "length", "0", NOT_NEGATIVE),
+            _number(
+                "INSULATION_DENSITY", "density of the insulation", "density", "0", NOT_NEGATIVE
+            ),
+            _number("WEIGHT", "further weight per length", "line load", "0", NOT_NEGATIVE),
+            _number(
+                "CORROSION",
+                "corrosion allowance, for code checks only",
+                "length",
+                "0",
+                NOT_NEGATIVE,
+            ),
         ),
         notes=(
             "Either OD and WALL, or NPS (or DN) and SCH.",
@@ -237,7 +282,7 @@ TABLE: tuple[Keyword, ...] = (
         (_node("a", "first node"), _node("b", "second node")),
         (
             *_RUN,
-            _number("WEIGHT", "total weight of the body", "force", "0", bounds=NOT_NEGATIVE),
+            _number("WEIGHT", "total weight of the body", "force", "0", NOT_NEGATIVE),
             *_OPERATION,
         ),
         example="RIGID 40 50 DX=450 WEIGHT=2.1",
@@ -250,7 +295,7 @@ TABLE: tuple[Keyword, ...] = (
             Positional("size", "choice", "1.5 or 1.0 nominal diameters", ("LONG", "SHORT"), True),
         ),
         (
-            _number("R", "radius of the centre line", "length", "LONG", bounds=POSITIVE),
+            _number("R", "radius of the centre line", "length", "LONG", POSITIVE),
             _number("K", "flexibility factor", "number", "1.65/h", bounds=Bounds(1.0)),
             Key("FLANGES", "ends with a flange", kind="integer", default="0", bounds=Bounds(0, 2)),
         ),
@@ -269,8 +314,8 @@ TABLE: tuple[Keyword, ...] = (
         "A concentrated mass.",
         (_node("node"),),
         (
-            _number("M", "mass", "mass", bounds=POSITIVE),
-            _number("W", "weight, instead of M", "force", bounds=POSITIVE),
+            _number("M", "mass", "mass", "", POSITIVE),
+            _number("W", "weight, instead of M", "force", "", POSITIVE),
         ),
         example="MASS 25 M=120",
     ),
@@ -279,8 +324,8 @@ TABLE: tuple[Keyword, ...] = (
         "Holds all six freedoms of a node.",
         (_node("node"),),
         (
-            _number("K", _K, "stiffness", "DEFAULT K", bounds=POSITIVE),
-            _number("KR", "stiffness of rotations", "rotational stiffness", "DEFAULT KR", bounds=POSITIVE),
+            _number("K", _K, "stiffness", "DEFAULT K", POSITIVE),
+            _number("KR", "stiffness of rotations", "rotational stiffness", "DEFAULT KR", POSITIVE),
             _CNODE,
             _NAME,
         ),
@@ -292,11 +337,18 @@ TABLE: tuple[Keyword, ...] = (
         (_node("node"), Positional("directions", "words", "direction words, each with its keys")),
         (
             Key("GAP", "clearance to both sides, or minus,plus", "", kind="gap", default="0"),
-            _number("K", "stiffness", "", "DEFAULT K or KR", bounds=POSITIVE),
-            _number("KF", "elastic stick stiffness", "stiffness", "DEFAULT KF", bounds=POSITIVE),
-            _number("MU", "coefficient of friction", "number", "DEFAULT MU", bounds=FRICTION),
+            _number("K", "stiffness", "", "DEFAULT K or KR", POSITIVE),
+            _number("KF", "elastic stick stiffness", "stiffness", "DEFAULT KF", POSITIVE),
+            _number("MU", "coefficient of friction", "number", "DEFAULT MU", FRICTION),
             Key("ALONG", "pipe whose axis GUIDE and LIMIT follow: 30-40", kind="along"),
-            Key("FRICTION", "one slider a contact, or one a card", kind="choice", choices=FRICTIONS, default="DEFAULT FRICTION", card_wide=True),
+            Key(
+                "FRICTION",
+                "one slider a contact, or one a card",
+                kind="choice",
+                choices=FRICTIONS,
+                default="DEFAULT FRICTION",
+                card_wide=True,
+            ),
             _CNODE,
             _NAME,
         ),
@@ -315,8 +367,10 @@ TABLE: tuple[Keyword, ...] = (
         "A spring hanger: vertical rate and cold load.",
         (_node("node"),),
         (
-            _number("RATE", "spring rate, 0 for constant effort", "stiffness", "0", bounds=NOT_NEGATIVE),
-            _number("LOAD", "cold load, upward on the pipe", "force", required=True, bounds=NOT_NEGATIVE),
+            _number("RATE", "spring rate, 0 for constant effort", "stiffness", "0", NOT_NEGATIVE),
+            _number(
+                "LOAD", "cold load, upward on the pipe", "force", "", NOT_NEGATIVE, required=True
+            ),
             _CNODE,
             _NAME,
         ),
@@ -361,7 +415,7 @@ TABLE: tuple[Keyword, ...] = (
         (
             Key("FROM", "case whose end is the start (history of friction)", kind="name"),
             Key("STEPS", "equal load steps", kind="integer", default="1", bounds=Bounds(1, 100000)),
-            _number("MUX", "factor on every coefficient of friction", "number", "1", bounds=NOT_NEGATIVE),
+            _number("MUX", "factor on every coefficient of friction", "number", "1", NOT_NEGATIVE),
             _choice("E", "modulus of the cold or of the hot pipe", ("COLD", "HOT"), "COLD"),
             _choice("EVENTS", "split steps where gapped contacts close", ON_OFF, "DEFAULT EVENTS"),
             _choice("ITERATION", "iteration of this case", ITERATIONS, "DEFAULT ITERATION"),
@@ -369,8 +423,8 @@ TABLE: tuple[Keyword, ...] = (
         ),
         form="equation",
         notes=(
-            "Load sets: W weight, WNC weight without contents, WW weight with water, H cold load of "
-            "hangers, T1-T9, P1-P9, D1-D9, F1-F9, U1-U3, U(x,y,z). They are never case names.",
+            "Load sets: W weight, WNC weight without contents, WW weight with water, H cold load "
+            "of hangers, T1-T9, P1-P9, D1-D9, F1-F9, U1-U3, U(x,y,z). They are never case names.",
             "CASE with names of cases only is read as COMB.",
             "U needs SNUBBERS=FREE or LOCKED.",
         ),
@@ -383,6 +437,6 @@ TABLE: tuple[Keyword, ...] = (
         form="equation",
         example="COMB EXP = OPE - SUS",
     ),
-)  # fmt: skip
+)
 
 KEYWORDS: dict[str, Keyword] = {keyword.name: keyword for keyword in TABLE}

@@ -6,15 +6,11 @@ from typing import Any
 from trunnion.deck import units as un
 from trunnion.deck.cards import Card, Deck, cards_of, read_cards
 from trunnion.deck.checks import check
-from trunnion.deck.fields import (
-    Fields,
-    fields_of,
-    missing_keys,
-    read_directions,
-    read_equation,
-    read_fields,
-)
-from trunnion.deck.interpreter import Carried, Interpreter, give_up
+from trunnion.deck.context import Carried, Context
+from trunnion.deck.directions import read_directions
+from trunnion.deck.equations import read_equation
+from trunnion.deck.fields import Fields, fields_of, missing_keys, read_fields
+from trunnion.deck.interpreter import apply
 from trunnion.deck.keywords import KEYWORDS
 from trunnion.deck.markers import show, tidy
 from trunnion.deck.record import Fault, Mark, Record
@@ -57,7 +53,7 @@ class _Reading:
         self.model = Model()
         self.faults: list[Fault] = []
         self.carried = Carried()
-        self.interpreter = Interpreter(self.model, self.carried, self.faults)
+        self.context = Context(self.model, self.carried, self.faults)
 
     def run(self) -> None:
         """Read UNITS and DEFAULT, which hold for the whole deck, then all other cards."""
@@ -156,11 +152,12 @@ class _Reading:
                 read_directions(record, items, fields, complain)
             else:
                 read_fields(record, items, fields, complain)
-                missing_keys(record, complain)
+                if len(self.faults) == before:  # else one may be misspelled
+                    missing_keys(record, complain)
         if len(self.faults) == before:
-            self.interpreter.apply(record)
+            apply(self.context, record)
         if len(self.faults) > before:
-            give_up(record, self.carried)
+            self.context.give_up(record)
 
     def _unknown(self, card: Card, word: str) -> None:
         """Refuse a card that no keyword fits, and its words elsewhere with it."""

@@ -3,16 +3,7 @@
 from dataclasses import dataclass, field
 from typing import Any
 
-from trunnion.model import Place
-
-
-@dataclass(slots=True)
-class Word:
-    """One direction word of a SUPPORT and the keys bound to it."""
-
-    text: str
-    vector: tuple[float, float, float] | None
-    keys: dict[str, Any]
+from trunnion.model import Direction, Place
 
 
 @dataclass(slots=True)
@@ -21,7 +12,7 @@ class Record:
 
     args : positionals, upper case.
     keys : values in SI (temperatures in C): float, str, int or tuple by the kind of key.
-    words : direction words of a SUPPORT.
+    words : directions of a SUPPORT, each with its keys.
     expression : of CASE and COMB, parsed.
     """
 
@@ -29,7 +20,7 @@ class Record:
     place: Place
     args: list[str] = field(default_factory=list)
     keys: dict[str, Any] = field(default_factory=dict)
-    words: list[Word] = field(default_factory=list)
+    words: tuple[Direction, ...] = ()
     expression: Any = None
 
     @property

@@ -77,7 +77,7 @@ class SuffixError(ValueError):
 
 
 def derived(units: Units) -> dict[str, str]:
-    """Unit of every dimension under one UNITS card: the table of the reference page."""
+    """Give the unit of every dimension under one UNITS card: the table of the reference page."""
     length, force = units.length, units.force
     imperial = length in ("in", "ft")
     arm = length if imperial else "m"

@@ -1,7 +1,7 @@
 """Texts to values: numbers with suffixes, vectors, gaps, labels, choices."""
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection
 from difflib import get_close_matches
 from typing import Any
 
@@ -15,11 +15,11 @@ _LABEL = re.compile(r"[A-Z0-9][A-Z0-9_.]{0,31}")
 _NAME = re.compile(r"[^\s=!&(),\"']{1,64}")
 
 
-class ValueFault(ValueError):
+class WordError(ValueError):
     """A value that cannot be read, with what would be right."""
 
 
-def nearest(word: str, words: Mapping[str, object] | tuple[str, ...] | set[str]) -> str:
+def nearest(word: str, words: Collection[str]) -> str:
     """Hint at the valid word nearest to `word`: "; nearest: GAP", or nothing."""
     if len(words) > 20000:  # a search would take longer than reading the deck
         words = {w for w in words if w[:2] == word[:2] and abs(len(w) - len(word)) < 3}
@@ -40,11 +40,11 @@ def number(text: object, scale: Scale, dimension: str) -> float:
         try:
             value = scale(float(text))  # type: ignore[arg-type] # numpy's numbers
         except (TypeError, ValueError):
-            raise ValueFault(f"{text!r} is not a number") from None
+            raise WordError(f"{text!r} is not a number") from None
     else:
         value = scale(float(text))
     if value - value != 0.0:
-        raise ValueFault(f"{text} is not a finite number")
+        raise WordError(f"{text} is not a finite number")
     return value
 
 
@@ -53,14 +53,14 @@ def _suffixed(text: str, dimension: str) -> float:
     text = text.strip()
     found = _NUMBER.match(text)
     if found is None:
-        raise ValueFault(f"{text or 'nothing'} is not a number")
+        raise WordError(f"{text or 'nothing'} is not a number")
     suffix = text[found.end() :].strip()
     if not suffix:
         return scale_of("", dimension)(float(found[0])) if dimension == "number" else float("nan")
     try:
         return scale_of(suffix, dimension)(float(found[0]))
     except SuffixError as error:
-        raise ValueFault(str(error)) from None
+        raise WordError(str(error)) from None
 
 
 def vector(value: object) -> Vector:
@@ -73,9 +73,9 @@ def vector(value: object) -> Vector:
     try:
         x, y, z = (number(p, float, "number") for p in parts)  # type: ignore[attr-defined]
     except (TypeError, ValueError):
-        raise ValueFault(f"{value} is not a direction (a,b,c) of three numbers") from None
+        raise WordError(f"{value} is not a direction (a,b,c) of three numbers") from None
     if x == y == z == 0.0:
-        raise ValueFault(f"direction {value} has no length")
+        raise WordError(f"direction {value} has no length")
     return x, y, z
 
 
@@ -85,12 +85,10 @@ def gap(value: object, scale: Scale, dimension: str) -> tuple[float, float]:
     if not isinstance(parts, (list, tuple)):
         parts = (parts,)
     if len(parts) not in (1, 2):
-        raise ValueFault(
-            f"{value} has {len(parts)} values; GAP=a is both sides, GAP=a,b minus,plus"
-        )
+        raise WordError(f"{value} has {len(parts)} values; GAP=a is both sides, GAP=a,b minus,plus")
     both = [number(p, scale, dimension) for p in parts]
     if min(both) < 0.0:
-        raise ValueFault(f"gap {parts[0] if both[0] < 0.0 else parts[-1]} is negative")
+        raise WordError(f"gap {parts[0] if both[0] < 0.0 else parts[-1]} is negative")
     return both[0], both[-1]
 
 
@@ -98,7 +96,7 @@ def label(value: object) -> str:
     """Node label: letters, digits, "_" and ".", upper case."""
     text = str(value).strip().upper()
     if _LABEL.fullmatch(text) is None:
-        raise ValueFault(f"{value} is no node label (letters, digits, _ and . , up to 32)")
+        raise WordError(f"{value} is no node label (letters, digits, _ and . , up to 32)")
     return text
 
 
@@ -106,7 +104,7 @@ def name(value: object) -> str:
     """Name of a material, section or case, upper case."""
     text = str(value).strip().upper()
     if _NAME.fullmatch(text) is None:
-        raise ValueFault(f"{value} is no name (no spaces, quotes, commas, = ! & or parentheses)")
+        raise WordError(f"{value} is no name (no spaces, quotes, commas, = ! & or parentheses)")
     return text
 
 
@@ -114,7 +112,7 @@ def text(value: object) -> str:
     """Word kept as written."""
     found = str(value).strip()
     if _NAME.fullmatch(found) is None:
-        raise ValueFault(f"{value} is no name (no spaces, quotes, commas, = ! & or parentheses)")
+        raise WordError(f"{value} is no name (no spaces, quotes, commas, = ! & or parentheses)")
     return found
 
 
@@ -122,7 +120,7 @@ def choice(value: object, choices: tuple[str, ...]) -> str:
     """One of some words."""
     found = ("OFF", "ON")[value] if isinstance(value, bool) else str(value).strip().upper()
     if found not in choices:
-        raise ValueFault(f"{value} is not one of {' '.join(choices)}")
+        raise WordError(f"{value} is not one of {' '.join(choices)}")
     return found
 
 
@@ -130,7 +128,7 @@ def integer(value: object) -> int:
     """Whole number."""
     found = number(value, float, "number")
     if found != int(found):
-        raise ValueFault(f"{value} is not a whole number")
+        raise WordError(f"{value} is not a whole number")
     return int(found)
 
 
@@ -138,7 +136,7 @@ def along(value: object) -> str:
     """Pipe of ALONG=30-40, given as text or as two labels."""
     ends = value.split("-") if isinstance(value, str) else value
     if not isinstance(ends, (list, tuple)) or len(ends) != 2:
-        raise ValueFault(f"{value} is no pipe; write ALONG=30-40")
+        raise WordError(f"{value} is no pipe; write ALONG=30-40")
     return f"{label(ends[0])}-{label(ends[1])}"
 
 
@@ -174,5 +172,5 @@ def _within(found: float, value: object, key: Key) -> Any:
     """Check the bounds of a key."""
     low, high, open_low = key.bounds
     if found < low or found > high or (open_low and found == low):
-        raise ValueFault(f"{key.name}={value} must be {key.bounds}")
+        raise WordError(f"{key.name}={value} must be {key.bounds}")
     return found

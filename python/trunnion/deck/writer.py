@@ -11,8 +11,8 @@ from typing import Any
 
 from trunnion.deck import units as un
 from trunnion.deck.expressions import format_expression, format_terms
-from trunnion.deck.interpreter import graded
 from trunnion.deck.keywords import KEYWORDS
+from trunnion.deck.properties import graded
 from trunnion.deck.reader import read_text
 from trunnion.errors import DeckError, ModelError, Problem
 from trunnion.model import (

@@ -41,7 +41,7 @@ def _ends(case: CaseResult, force: F8, units: ReportUnits, heads: tuple[str, ...
     rows = force.reshape(-1, 6)
     q = units.force.showing(largest(rows[:, :3]))
     m = units.moment.showing(largest(rows[:, 3:]))
-    columns = [words("ELEMENT", names, most=20), words("AT", at)]
+    columns = [words("ELEMENT", names), words("AT", at)]
     for i, head in enumerate(heads):
         columns.append(numbers(head, rows[:, i], m if i > 2 else q, 14))
     return columns

@@ -25,17 +25,40 @@ class Column:
     cells: Sequence[object]
     left: bool = False
 
+    @property
+    def last(self) -> str:
+        """Form at the end of a row: no spaces after words."""
+        return "%s" if self.left else self.form
+
     def heading(self, text: str) -> str:
         """Set a heading as the cells are set."""
         text = text[: self.width - (0 if self.left else 1)]
         return text.ljust(self.width) if self.left else text.rjust(self.width)
 
 
-def words(head: str, cells: Words, *, least: int = 6, most: int = 24) -> Column:
+def words(head: str, cells: Words, *, least: int = 6, most: int = 64) -> Column:
     """Set words flush left, as wide as the longest, with a space after them."""
-    known = [cell or "" for cell in cells]
-    width = min(max(max(map(len, known), default=0), len(head), least), most) + 1
-    return Column(head, "", f"%-{width}.{width - 1}s", width, known, left=True)
+    width = min(max(max((len(c or "") for c in cells), default=0), len(head), least), most) + 1
+    return Column(head, "", f"%-{width}s", width, [_cut(c or "", width - 1) for c in cells], True)
+
+
+def _cut(text: str, width: int) -> str:
+    """Shorten what is too long, with a mark; the JSON has all of it."""
+    return text if len(text) <= width else f"{text[: width - 1]}~"
+
+
+def fitted(columns: Sequence[Column]) -> list[Column]:
+    """Narrow the widest words until the columns fit the page."""
+    columns = list(columns)
+    while (excess := 2 + sum(c.width for c in columns) - PAGE) > 0:
+        i = max((i for i, c in enumerate(columns) if c.left), key=lambda i: columns[i].width)
+        c = columns[i]
+        if c.width <= 8:
+            break
+        narrow = max(c.width - excess, 8, *(d.width for d in columns if d.left and d is not c))
+        narrow = min(narrow, c.width - 1)
+        columns[i] = words(c.head, [str(cell) for cell in c.cells], least=1, most=narrow - 1)
+    return columns
 
 
 def numbers(head: str, values: ArrayLike, quantity: Quantity, width: int = 11) -> Column:
@@ -70,7 +93,8 @@ def table(columns: Sequence[Column], *, none: str = "none") -> str:
     count = len(columns[0].cells)
     if not count:
         return f"  {none}\n"
-    form = "  " + "".join(c.form for c in columns) + "\n"
+    columns = fitted(columns)
+    form = "  " + "".join(c.form for c in columns[:-1]) + columns[-1].last + "\n"
     cells = chain.from_iterable(zip(*(c.cells for c in columns), strict=True))
     return headings(columns) + (form * count) % tuple(cells)
 

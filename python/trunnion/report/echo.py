@@ -8,6 +8,7 @@ import numpy as np
 from trunnion.arrays import ARC, System
 from trunnion.model import Case, Model
 from trunnion.report.columns import Column, integers, numbers, plain, section, table, words
+from trunnion.report.props import support_echo
 from trunnion.report.units import ReportUnits
 
 
@@ -21,6 +22,7 @@ def input_echo(model: Model, system: System, units: ReportUnits) -> str:
             _nodes(system, units),
             _elements(system, units),
             _bends(system, units),
+            support_echo(model, system, units),
             _operations(model, units),
             _loads(model, units),
             _cases(model),

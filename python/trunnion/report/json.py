@@ -6,12 +6,22 @@ results give the same bytes.
 
 from collections.abc import Mapping
 
+import numpy as np
+
 from trunnion.arrays import F8, CaseResult, Certificate, Results, System
 from trunnion.balance import load_sum, local_forces, reaction_sum
+from trunnion.interior import mid_of_bend
 from trunnion.report.encode import dump, finite, lines, listing, records, rows, words
 from trunnion.report.json_supports import support_entries
+from trunnion.stresses import end_stresses
 from trunnion.supports import cause_of, is_good, solved
 from trunnion.tables import element_ids
+
+
+STRESSES = (
+    "axial", "pressure", "bending", "shear", "torsion", "longitudinal", "hoop_inner",
+    "principal_max", "principal_min", "von_mises",
+)  # fmt: skip
 
 
 def json_report(results: Results) -> bytes:
@@ -37,6 +47,7 @@ def _case(case: CaseResult) -> str:
         "frozen": dump(list(case.frozen)),
         "warnings": dump(list(case.warnings)),
         "work": dump(case.work),
+        "history": listing(dump(_finite(record)) for record in case.history),
     }
     return lines(parts | _numbers(case) if good else parts)
 
@@ -46,15 +57,23 @@ def _numbers(case: CaseResult) -> dict[str, str]:
     system, state = case.system, solved(case)
     effect = {name: finite(value) for name, value in case.penalty_effect.items()}
     parts = {"penalty_effect": dump(effect)}
-    if case.loads is not None:
+    if case.loads is not None and case.linear:
         parts["loads"] = _sum(load_sum(system, case.loads))
-    parts["reactions"] = _sum(reaction_sum(case))
-    parts["nodes"] = _by_node(system, state.u)
+        parts["reactions"] = _sum(reaction_sum(case))
+    parts["nodes"] = _by_node(system, state.u, mid_of_bend(case))
     if state.u_low.any():
-        parts["nodes_low"] = _by_node(system, state.u_low)
+        parts["nodes_low"] = _by_node(system, state.u_low, {})
     parts["supports"] = support_entries(case)
     parts["elements"] = _elements(case)
+    parts["stresses"] = _stresses(case)
     return parts
+
+
+def _finite(record: Mapping[str, object]) -> dict[str, object]:
+    """Replace what a diverging iteration leaves in its history."""
+    return {
+        key: finite(value) if isinstance(value, float) else value for key, value in record.items()
+    }
 
 
 def _sum(total: F8) -> str:
@@ -62,12 +81,13 @@ def _sum(total: F8) -> str:
     return dump({"force": total[:3].tolist(), "moment": total[3:].tolist()})
 
 
-def _by_node(system: System, values: F8) -> str:
-    """Write one line a node, then one for each further name of a node."""
+def _by_node(system: System, values: F8, middles: Mapping[str, F8]) -> str:
+    """Write one line a node, then each further name of a node, then middles of bends."""
     pieces = rows(values)
     named = dict(zip(system.labels, pieces, strict=True))
     for label, node in system.alias.items():
         named.setdefault(label, pieces[node])
+    named.update(zip(middles, rows(np.array(list(middles.values()))), strict=True))
     return lines(named)
 
 
@@ -85,6 +105,16 @@ def _elements(case: CaseResult) -> str:
         "local_from": rows(local[:, 0]),
         "local_to": rows(local[:, 1]),
     }
+    return listing(records(fields))
+
+
+def _stresses(case: CaseResult) -> str:
+    """Write one line a pipe: each stress [Pa] at the two ends."""
+    element, *ends = end_stresses(case)
+    ids = element_ids(case.system.parts)
+    fields = {"id": words(ids[i] for i in element.tolist())}
+    for name in STRESSES:
+        fields[name] = rows(np.column_stack([getattr(end, name) for end in ends]))
     return listing(records(fields))
 
 

@@ -16,7 +16,7 @@ FIRST, LAST = 8, 16  # iterations printed of a long history
 
 def balance_table(case: CaseResult, units: ReportUnits) -> str:
     """Print the sums of loads and reactions and what is left between them."""
-    if case.loads is None:
+    if case.loads is None or not case.linear:
         return ""
     loads, reactions = load_sum(case.system, case.loads), reaction_sum(case)
     rows = np.stack([loads, reactions, loads + reactions])
@@ -43,7 +43,7 @@ def certificate_table(case: CaseResult) -> str:
             [
                 words("ITEM", [item.name for item in found.items], least=20),
                 Column("VALUE", "", "%10s", 10, values),
-                words("  WORST AT", [f"  {item.where}" for item in found.items], most=80),
+                words("  WORST AT", [f"  {item.where}" for item in found.items]),
             ]
         )
     for name, value in case.penalty_effect.items():
@@ -74,7 +74,7 @@ def history_table(case: CaseResult) -> str:
         if key not in scalar:
             lists = [_names(record.get(key)) for record in shown]
             head = f"  {key.upper()}"
-            columns.append(words(head, [f"  {_few(names)}" for names in lists], most=44))
+            columns.append(words(head, [f"  {_few(names)}" for names in lists]))
             break
     text = section(f"{case.name}: ITERATIONS", f"{len(history)} in all") + table(columns)
     if left_out:
@@ -96,7 +96,7 @@ def _restless(case: CaseResult) -> str:
     most = count.most_common(20)
     return "\n" + table(
         [
-            words("SUPPORT", [name for name, _ in most], most=40),
+            words("SUPPORT", [name for name, _ in most]),
             integers("CHANGES", [n for _, n in most], 10),
             integers("LAST AT", [last[name] for name, _ in most], 10),
         ]

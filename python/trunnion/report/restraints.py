@@ -50,6 +50,7 @@ def _blocks(cases: Sequence[CaseResult], force: F8, move: F8, units: ReportUnits
         force = np.concatenate([force, largest], axis=1)
         move = np.concatenate([move, np.zeros((len(cards), 1, 3))], axis=1)
     columns = _quantities(force, move, units)
+    nothing = 1e-5 * np.repeat([np.abs(half).max() for half in np.split(force, 2, axis=2)], 3)
     rows = list(zip(*(c.cells for c in columns), strict=True))
     per = len(rows) // len(cards)
     states = list(zip(*(card_states(case) for case in cases), strict=True))
@@ -66,7 +67,9 @@ def _blocks(cases: Sequence[CaseResult], force: F8, move: F8, units: ReportUnits
             out.append(row % (name, state or "", *values))
         if several:
             out.append(top % ("MAX", "", *rows[i * per + n_case][:6]))
-            out.append(where % ("", "", *(names[j] for j in worst[i].tolist())))
+            sizes = np.abs(largest[i, 0]) > nothing
+            found = zip(worst[i].tolist(), sizes.tolist(), strict=True)
+            out.append(where % ("", "", *(names[j] if there else "-" for j, there in found)))
     return "".join(out)
 
 
@@ -76,6 +79,8 @@ def _largest_of_all(cases: Sequence[CaseResult], force: F8, units: ReportUnits) 
     flat = force.reshape(-1, 6)
     worst = np.abs(flat).argmax(axis=0).tolist()
     values = [float(flat[row, i]) for i, row in enumerate(worst)]
+    small = [1e-5 * max(map(abs, half)) for half in (values[:3], values[3:])]
+    there = [abs(value) > small[i // 3] for i, value in enumerate(values)]
     q = units.force.showing(max(map(abs, values[:3])))
     m = units.moment.showing(max(map(abs, values[3:])))
     shown = [v * (m if i > 2 else q).factor for i, v in enumerate(values)]
@@ -83,7 +88,14 @@ def _largest_of_all(cases: Sequence[CaseResult], force: F8, units: ReportUnits) 
         words("", COMPONENTS, least=4),
         plain("LARGEST", shown, max(q.decimals, m.decimals), 14),
         words("  UNIT", [f"  {(m if i > 2 else q).unit}" for i in range(6)], least=9),
-        words("CASE", [cases[row % len(cases)].name for row in worst], least=12),
-        words("RESTRAINT", [cards[row // len(cases)].name for row in worst], most=60),
+        words("CASE", _where([cases[row % len(cases)].name for row in worst], there), least=12),
+        words(
+            "RESTRAINT", _where([cards[row // len(cases)].name for row in worst], there), most=60
+        ),
     ]
     return table(columns)
+
+
+def _where(names: list[str], there: list[bool]) -> list[str]:
+    """Leave out the place of what is nothing."""
+    return [name if yes else "-" for name, yes in zip(names, there, strict=True)]

@@ -21,7 +21,7 @@ def summary_table(results: Results, units: ReportUnits, *, only: list[str] | Non
             Column("LARGEST MOVE", f"[{units.movement.unit}]", "%14s", 14, move),
             words("  AT", where, most=14),
             Column("LARGEST LOAD", f"[{units.force.unit}]", "%14s", 14, force),
-            words("  ON RESTRAINT", restraint, most=36),
+            words("  ON RESTRAINT", restraint),
         ]
     )
 

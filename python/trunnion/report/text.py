@@ -5,6 +5,7 @@ from trunnion.model import Model
 from trunnion.report.answers import displacement_table, element_tables
 from trunnion.report.columns import PAGE, chapter, section, wrapped
 from trunnion.report.echo import input_echo
+from trunnion.report.points import middle_table, sag_table, stress_table
 from trunnion.report.proof import balance_table, certificate_table, history_table, ledger_table
 from trunnion.report.restraints import restraint_summary
 from trunnion.report.states import state_table
@@ -21,6 +22,7 @@ def text_report(results: Results, model: Model) -> bytes:
     parts.append(f"{results.title or '(no title)'}\n")
     parts.append(chapter("1  SUMMARY"))
     parts.append(summary_table(results, units))
+    parts += [f"  {name}: {cause_of(c)}\n" for name, c in results.cases.items() if c not in good]
     parts.append(warnings(results))
     parts.append(chapter("2  INPUT"))
     parts.append(input_echo(model, _system(results), units))
@@ -50,6 +52,9 @@ def _case(case: CaseResult, units: ReportUnits) -> str:
             displacement_table(case, units),
             state_table(case, units),
             element_tables(case, units),
+            middle_table(case, units),
+            sag_table(case, units),
+            stress_table(case, units),
             balance_table(case, units),
             certificate_table(case),
             history_table(case),

@@ -1,0 +1,126 @@
+"""The HDF5 report: whole arrays with labels, enough to judge the certificate again.
+
+The layout is docs/hdf5_layout.md.  No times are stored: the same results give the same bytes.
+"""
+
+from collections.abc import Sequence
+from dataclasses import fields
+from io import BytesIO
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from trunnion.arrays import CaseResult, Results, System
+from trunnion.balance import local_forces
+from trunnion.stresses import end_stresses
+from trunnion.supports import STATES, card_forces, card_ids, card_levels, cause_of, is_good, solved
+from trunnion.tables import element_ids
+
+if TYPE_CHECKING:
+    import h5py
+
+SCHEMA = 1
+
+
+def hdf5_report(results: Results) -> bytes:
+    """Write the whole file."""
+    import h5py
+
+    stream = BytesIO()
+    with h5py.File(stream, "w") as file:
+        file.attrs["schema"] = SCHEMA
+        file.attrs["title"] = results.title
+        _words(file, "case_names", list(results.cases))
+        _words(file, "warnings", results.warnings)
+        _model(file.create_group("model"), next(iter(results.cases.values())).system)
+        cases = file.create_group("cases")
+        for name, case in results.cases.items():
+            _case(cases.create_group(name), case)
+    return stream.getvalue()
+
+
+def _words(group: "h5py.Group", name: str, texts: Sequence[str | None]) -> None:
+    """Store text as UTF-8 of one length, that of the longest."""
+    import h5py
+
+    coded = [(text or "").encode() for text in texts]
+    length = max((len(text) for text in coded), default=0) or 1
+    group.create_dataset(name, data=np.array(coded, h5py.string_dtype("utf-8", length)))
+
+
+def _model(group: "h5py.Group", system: System) -> None:
+    """Labels and the numbered model that the cases' arrays refer to."""
+    nodes = group.create_group("nodes")
+    _words(nodes, "label", system.labels)
+    nodes["xyz"] = system.xyz
+    _words(nodes, "alias", list(system.alias))
+    nodes["alias_of"] = np.array(list(system.alias.values()), np.int32)
+
+    parts, elements = system.parts, group.create_group("elements")
+    _words(elements, "id", element_ids(parts))
+    _words(elements, "type", [part.type for part in parts])
+    _words(elements, "section", [part.section for part in parts])
+    _words(elements, "material", [part.material for part in parts])
+    for name in ("ends", "kind", "axes", "length", "radius", "angle", "rigidity", "flex", "spring"):
+        elements[name] = getattr(system, name)
+
+    cards, supports = system.cards, group.create_group("supports")
+    _words(supports, "id", card_ids(cards))
+    _words(supports, "name", [card.name for card in cards])
+    _words(supports, "kind", [card.kind for card in cards])
+    _words(supports, "node", [card.label for card in cards])
+    _words(supports, "cnode", [card.cnode for card in cards])
+    supports["line"] = np.array([card.line for card in cards], np.int32)
+
+    for name, record in (("contacts", system.contacts), ("sliders", system.sliders)):
+        inner = group.create_group(name)
+        for field in fields(record):
+            value = getattr(record, field.name)
+            if isinstance(value, tuple):
+                _words(inner, field.name, value)
+            else:
+                inner[field.name] = value
+
+
+def _case(group: "h5py.Group", case: CaseResult) -> None:
+    """One case; what is not certified has its cause and no numbers."""
+    good, found = is_good(case), case.certificate
+    group.attrs["kind"], group.attrs["text"] = case.kind, case.text
+    group.attrs["converged"] = good
+    if not good:
+        group.attrs["cause"] = cause_of(case)
+    if found is not None:
+        inner = group.create_group("certificate")
+        inner.attrs["passed"], inner.attrs["inherited"] = found.passed, found.inherited
+        inner.attrs["worst"], inner.attrs["where"] = found.worst, found.where
+        _words(inner, "item", [item.name for item in found.items])
+        _words(inner, "where", [item.where for item in found.items])
+        inner["value"] = np.array([item.value for item in found.items], np.float64)
+    for name, counts in (("work", case.work), ("penalty_effect", case.penalty_effect)):
+        inner = group.create_group(name)
+        for key, value in counts.items():
+            inner.attrs[key] = value
+    _words(group, "warnings", case.warnings)
+    if good:
+        _numbers(group, case)
+
+
+def _numbers(group: "h5py.Group", case: CaseResult) -> None:
+    state, system = solved(case), case.system
+    inner = group.create_group("state")
+    for field in fields(state):
+        inner[field.name] = getattr(state, field.name)
+    if case.loads is not None:
+        inner = group.create_group("loads")
+        for field in fields(case.loads):
+            inner[field.name] = getattr(case.loads, field.name)
+    group["local_force"] = local_forces(system, state.end_force)
+    group["support_force"] = card_forces(case)
+    if case.kind == "case":
+        group["support_state"] = card_levels(case).astype(np.int8)
+        group["support_state"].attrs["words"] = ",".join(STATES)
+    element, *ends = end_stresses(case)
+    inner = group.create_group("stress")
+    inner["element"] = element.astype(np.int32)
+    for field in fields(ends[0]):
+        inner[field.name] = np.column_stack([getattr(end, field.name) for end in ends])
