@@ -93,8 +93,8 @@ contains
          do j = 1_ip, size(k, kind=ip)
             if (at(at_hold, j) == hold_two_way) cycle
             call along(at(:, j), base(:, j), u, low, p, s, w, w_low, dw)
-            call contact_law(at(at_dim, j), normal(:, :, j), gap(:, j), k(j), at(at_hold, j), w, w_low, &
-               & state, force, tangent)
+            call contact_law(at(at_dim, j), normal(:, :, j), gap(:, j), k(j), at(at_hold, j), w, &
+               & w_low, state, force, tangent)
             force_work = force_work + dot_product(force, dw)
             tangent_work = tangent_work - dot_product(dw, matmul(tangent, dw))
          end do

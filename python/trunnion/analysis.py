@@ -60,7 +60,7 @@ def solve_system(
     found = {}
     for name, loads in cases.items():
         plan = (plans or {}).get(name, Plan())
-        found[name] = run.solved(Job(Case(name, ()), name, loads, plan), None)
+        found[name] = run.solved(Job(Case(name, ()), name, loads, plan))
     return Results("", found, (), run.ledger.snapshot())
 
 
@@ -94,6 +94,7 @@ class Run:
         self.structures: dict[str, Structure] = {}
         self.ended: dict[str, Ended] = {}
         self.answered: dict[str, tuple[Point, Solved]] = {}
+        self.counted = self.ledger.snapshot()  # work that stands on a case already
 
     @classmethod
     def of_system(cls, system: System) -> "Run":
@@ -101,6 +102,7 @@ class Run:
         run = cls.__new__(cls)
         run.model, run.starts, run.ledger, run.system = Model(), {}, Ledger(), system
         run.structures, run.ended, run.answered = {}, {}, {}
+        run.counted = run.ledger.snapshot()
         return run
 
     def results(self) -> Results:
@@ -112,7 +114,7 @@ class Run:
             if isinstance(case, Comb):
                 found[case.name] = combine(case, found)
             else:
-                found[case.name] = self.solved(jobs[case.name], found.get(case.start or ""))
+                found[case.name] = self.solved(jobs[case.name])
         inorder = {case.name: found[case.name] for case in self.model.cases}
         return Results(self.model.title, inorder, (), self.ledger.snapshot())
 
@@ -178,10 +180,9 @@ class Run:
             raise ModelError([Problem("structure", motion.text) for motion in motions])
 
     # ------------------------------------------------------------------ one case
-    def solved(self, job: Job, origin: CaseResult | None) -> CaseResult:
+    def solved(self, job: Job) -> CaseResult:
         """Solve one case, judge it, and keep what later cases start from."""
         structure = self._structure(job.case)
-        before = self.ledger.snapshot()
         result = CaseResult(
             name=job.case.name,
             kind="case",
@@ -203,10 +204,13 @@ class Run:
             release(structure)
         result.history = history.records
         result.frozen = tuple(history.frozen)
-        result.work = self.ledger.since(before) | {"jumps": history.jumps}
-        if origin is None and not self.ended:
-            result.work = self.ledger.snapshot() | {"jumps": history.jumps}
+        result.work = self._work() | {"aitken": history.jumps}
         return result
+
+    def _work(self) -> dict[str, int]:
+        """Counts since the last case; what cases share stands on the first of them."""
+        work, self.counted = self.ledger.since(self.counted), self.ledger.snapshot()
+        return work
 
     def _answer(
         self,
@@ -221,7 +225,7 @@ class Run:
             point, solved = self.answered[job.case.name]
         else:
             point, solved = solve_case(structure, forcing, origin, job.plan, history)
-            self._refuse_mechanisms_if_shifted(structure, history)
+            self._refuse_mechanisms_if_shifted(structure)
         if not solved.settled:
             law = Sliding(
                 solved.sliding.capacity,
@@ -274,7 +278,7 @@ class Run:
         datum = np.zeros((len(structure.sliders.mu), 3))
         return Origin(structure.still, Point.zero(structure.n_node), datum)
 
-    def _refuse_mechanisms_if_shifted(self, structure: Structure, history: History) -> None:
+    def _refuse_mechanisms_if_shifted(self, structure: Structure) -> None:
         if not structure.checked and structure.shifted:
             structure.checked = True
             motions = structural_motions(structure)
@@ -347,5 +351,3 @@ def _ordered(cases: list[Case | Comb]) -> list[Case | Comb]:
     for case in cases:
         visit(case.name, ())
     return list(done.values())
-
-

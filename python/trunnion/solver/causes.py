@@ -21,14 +21,12 @@ def explain(
         return cause
     needs = _needs(structure, sliding, forcing, history)
     if needs:
-        return f"{cause}: {'; '.join(needs)}"
+        return f"{'; '.join(needs)}: {cause}"
     motions = motions_at(structure, solved.response)
-    return f"{cause}: {'; '.join(m.text for m in motions)}" if motions else cause
+    return f"{'; '.join(m.text for m in motions)}: {cause}" if motions else cause
 
 
-def _needs(
-    structure: Structure, sliding: Sliding, forcing: Forcing, history: History
-) -> list[str]:
+def _needs(structure: Structure, sliding: Sliding, forcing: Forcing, history: History) -> list[str]:
     """Supports whose friction would have to exceed mu N for the pipe to stay."""
     point = Point.zero(structure.n_node)
     outcome = all_stuck(structure, point, sliding, forcing, history)

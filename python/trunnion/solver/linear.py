@@ -24,5 +24,3 @@ def solve_linear(structure: Structure, forcings: list[Forcing]) -> list[tuple[Po
     return [
         (point, Solved(True, start[2], law)) for point, start in zip(points, starts, strict=True)
     ]
-
-

@@ -22,7 +22,9 @@ from trunnion.solver.structure import Forcing, Point, Response, Sliding, Structu
 
 PASSES = 200_000
 TIGHT = 1e-13  # remaining change of displacements that ends the iteration, relative
-REVERSALS = 5  # a contact that turns more often is frozen engaged
+REVERSALS = 5  # a contact that turns more often without a calm stretch is frozen engaged
+CHATTER = 2  # turns of one contact after which passes are searched, not taken whole
+CALM = 50  # passes without any turn that clear the counts
 QUIET = 3  # passes without a change of state before a jump
 ALIGNED = 1e-6  # how nearly parallel two creeping steps are: 1 - cosine
 STEADY = 0.05  # how nearly equal two ratios are, of 1 - ratio
@@ -80,15 +82,18 @@ def solve_status(
     scratch = np.zeros_like(point.u)
     true = structure.respond(point, law, forcing, scratch)
     turns = np.zeros(len(structure.at), np.int32)
-    creep, earlier = Creep(), None
+    creep, earlier, calm = Creep(), None, 0
     for i in range(PASSES):
-        p = _pass(structure, point, trial, forcing, true)
+        p = _pass(structure, point, trial, forcing, true, careful=bool((turns >= CHATTER).any()))
         if not np.abs(p).max() < RUNAWAY * structure.size:
             return Solved(False, true, law, "the pipe moves away without bound")
         before, true = true, structure.respond(point, law, forcing, scratch)
         history.add("status", float(np.abs(p).max()), 1.0, before, true)
         opened = (before.side == 0) != (true.side == 0)
         turns += opened
+        calm = 0 if opened.any() else calm + 1
+        if calm >= CALM:
+            turns[:] = 0
         if opened.any():
             creep.reset()
             if freeze and (turns > REVERSALS).any():
@@ -105,19 +110,32 @@ def solve_status(
         jump = None if opened.any() else creep.jump(moved)
         if jump is not None:
             trial.datum += jump
+            turns[:] = 0  # a jump may turn contacts that a pass would not
             earlier = None
     history.jumps += creep.jumps
     return Solved(False, true, law, verdict.broken or "the status iteration still creeps")
 
 
 def _pass(
-    structure: Structure, point: Point, trial: Sliding, forcing: Forcing, true: Response
+    structure: Structure,
+    point: Point,
+    trial: Sliding,
+    forcing: Forcing,
+    true: Response,
+    *,
+    careful: bool,
 ) -> F8:
-    """One linear solve with the stick springs of all supports that press; moves the point."""
+    """One linear solve with the stick springs of all supports that press; moves the point.
+
+    A `careful` pass goes only as far as the energy of these springs falls.
+    """
     trial.capacity = np.where((true.normal > 0.0) & (trial.mu > 0.0), STICKY, 0.0)
     r, _, response = structure.residual(point, trial, forcing)
     tangent_factor(structure, response)
     p = structure.solve(r)
+    if careful:
+        push = float(np.vdot(r, p))
+        p *= structure.search(point, trial, forcing, p, (push, push))
     point.move(p)
     return p
 
@@ -136,9 +154,7 @@ def _creep_left(moved: F8, ratio: float | None) -> float:
     return last * max(1.0, ratio / (1.0 - ratio))
 
 
-def _freeze(
-    structure: Structure, turns: I4, before: I4, after: I4, history: History
-) -> None:
+def _freeze(structure: Structure, turns: I4, before: I4, after: I4, history: History) -> None:
     """Hold closed, from now on, the contacts that turned too often."""
     for i in np.flatnonzero((turns > REVERSALS) & (structure.at[:, 5] == 0)):
         side = before[i] or after[i]
@@ -150,5 +166,3 @@ def release(structure: Structure) -> None:
     """Let frozen contacts open again."""
     free = structure.at[:, 5] > 1
     structure.at[free, 5] = 0
-
-

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from trunnion.arrays import F8
+from trunnion.arrays import B1, F8
 from trunnion.solver.friction import Solved, solve_step
 from trunnion.solver.history import History
 from trunnion.solver.status import release, solve_status
@@ -106,6 +106,8 @@ def _fallbacks(
     first: Solved,
 ) -> Solved:
     """Ramping, then the status iteration with freezing; the first cause stands if all fail."""
+    if "without bound" in (first.cause or ""):
+        return first
     for n in RAMPS:
         if not (law.mu > 0.0).any():
             break  # without history a ramp ends where one step does
@@ -118,7 +120,7 @@ def _fallbacks(
             )
             return solved
         if "without bound" in (solved.cause or ""):
-            break
+            return first
     if solve is not solve_status:
         _return(point, before)
         solved = solve_status(structure, point, law, target, history)
@@ -180,7 +182,9 @@ def _events(
         if not solved.settled:
             return solved
         touching = watched & (_opening(structure, point, part) <= 1e-9 * structure.size)
-        names = {structure.system.cards[i].name for i in structure.contacts.card[touching & was_open]}
+        names = {
+            structure.system.cards[i].name for i in structure.contacts.card[touching & was_open]
+        }
         history.notes.append(f"EVENT: {', '.join(sorted(names))} closes at {t:.6g} of the step")
         law = replace(
             law,
@@ -195,14 +199,14 @@ def _events(
     return solved
 
 
-def _watched(structure: Structure) -> F8:
+def _watched(structure: Structure) -> B1:
     """Contacts with a gap on which friction acts."""
     c, s = structure.contacts, structure.sliders
     owner = np.repeat(np.arange(len(s.mu)), np.diff(s.first))
     rubbed = np.zeros(len(c.k), bool)
     rubbed[s.contact[: len(owner)][s.mu[owner] > 0.0]] = True
     gap = np.where(np.isfinite(c.gap), c.gap, 0.0).max(axis=1)
-    watched: F8 = rubbed & (gap > 0.0)
+    watched: B1 = rubbed & (gap > 0.0)
     return watched
 
 
@@ -224,7 +228,7 @@ def _closing(
     target: Forcing,
     solve: Step,
     before: Point,
-    closed: F8,
+    closed: B1,
     history: History,
 ) -> float | None:
     """Smallest load fraction at which one of the contacts closes, by bisection and secant."""

@@ -36,22 +36,17 @@ class Forcing:
         """Loads a fraction t of the way to `other`; exactly `other` at 1."""
         if t == 1.0:
             return other
-        parts = (
-            (1.0 - t) * getattr(self, name) + t * getattr(other, name)
-            for name in ("free", "resultant", "nodal", "base", "slider_base", "preload")
-        )
-        return Forcing(*parts, mux=other.mux)
+        return self._mixed(1.0 - t, other, t)
 
-    def scaled(self, t: float) -> "Forcing":
-        """Loads times t."""
+    def _mixed(self, a: float, other: "Forcing", b: float) -> "Forcing":
         return Forcing(
-            t * self.free,
-            t * self.resultant,
-            t * self.nodal,
-            t * self.base,
-            t * self.slider_base,
-            t * self.preload,
-            self.mux,
+            a * self.free + b * other.free,
+            a * self.resultant + b * other.resultant,
+            a * self.nodal + b * other.nodal,
+            a * self.base + b * other.base,
+            a * self.slider_base + b * other.slider_base,
+            a * self.preload + b * other.preload,
+            other.mux,
         )
 
 
@@ -147,7 +142,8 @@ class Structure:
         val = np.zeros(len(p.row))
         if len(self.ends):
             kernels.assemble_elements(
-                self.k, self.system.axes, self.d, self.ends, p.element_rank, p.colptr, val)
+                self.k, self.system.axes, self.d, self.ends, p.element_rank, p.colptr, val
+            )
         closed = np.einsum("c,cai,caj->cij", c.k, c.normal, c.normal)
         kernels.add_tangents(self.at, closed, 1, p.colptr, val)
         whole = val.copy()  # with everything closed and stuck

@@ -51,11 +51,11 @@ def report_numbers(
             best = max(left)
             point.u[:], point.low[:] = trial.u, trial.low
             r, end, response = after
-        penalty = _penalty(structure, point, response)
+        penalty_u, penalty_r, effect = _penalty(structure, point, response)
     finally:
         structure.ledger.refining = False
     state = _state(structure, point, law, response, end)
-    return Reported(state, *left, *penalty, singular=shift > 0.0)
+    return Reported(state, *left, penalty_u, penalty_r, effect, singular=shift > 0.0)
 
 
 def _factor(structure: Structure, response: Response) -> float:
@@ -123,9 +123,7 @@ def _penalty(
     return du, dr[:n], effect
 
 
-def _state(
-    structure: Structure, point: Point, law: Sliding, response: Response, end: F8
-) -> State:
+def _state(structure: Structure, point: Point, law: Sliding, response: Response, end: F8) -> State:
     n = len(structure.system.contacts.node)
     m = len(structure.system.sliders.node)
     smooth = (response.mode == OPEN) & (response.normal > 0.0)  # pressed, but mu is 0 here
