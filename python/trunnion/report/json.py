@@ -17,7 +17,6 @@ from trunnion.stresses import end_stresses
 from trunnion.supports import cause_of, is_good, solved
 from trunnion.tables import element_ids
 
-
 STRESSES = (
     "axial", "pressure", "bending", "shear", "torsion", "longitudinal", "hoop_inner",
     "principal_max", "principal_min", "von_mises",
