@@ -266,6 +266,13 @@ class CaseResult:
 
         return elements(self)
 
+    @property
+    def stresses(self) -> "Table":
+        """Nominal stresses at the ends of pipes, by name (10-20)."""
+        from trunnion.tables import stresses
+
+        return stresses(self)
+
 
 @dataclass(slots=True)
 class Results:

@@ -10,6 +10,7 @@ the kin (`floor`), and one that has no kin at all against 1 N, 1 N m, 1 m, 1 rad
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
@@ -19,6 +20,7 @@ from trunnion.deformation import cross, two_difference
 from trunnion.scales import Scale, floor, largest, measure
 
 LIMIT = 1e-9
+BLOCK = 4096  # elements at a time
 
 Where = Callable[[int], str]
 
@@ -123,7 +125,58 @@ def _six(error: F8, translational: float, rotational: float) -> F8:
 
 
 def _elements(system: System, loads: Loads, state: State, scale: Scale) -> list[Item]:
-    """Balance of every element with its load, and deformations against end forces."""
+    """Balance of every element with its load, and deformations against end forces.
+
+    In blocks that stay in the processor's cache.
+    """
+    count = len(system.kind)
+    parts = [
+        _block(*_cut(system, loads, state, slice(at, at + BLOCK)), scale)
+        for at in range(0, count, BLOCK)
+    ]
+    if not parts:
+        return []
+    balances, wrong, across, sizes = zip(*parts, strict=True)
+    own, swing, move, turn, free = np.max(sizes, axis=0)
+    length = floor(own, max(1e-4 * move, 1e-4 * free, 1e-3 * swing))
+    angle = floor(swing, max(1e-4 * turn, 1e-3 * own))
+    error, bent = np.concatenate(wrong, axis=1), 1e-5 * np.concatenate(across, axis=1)
+    law = np.maximum(error[0] / np.maximum(length, bent[0]), error[1] / np.maximum(angle, bent[1]))
+    law = np.maximum(law, error[2])
+    name = _element(system)
+    balance = np.concatenate(balances)
+    return [_item("element_balance", balance, name), _item("element_law", law, name)]
+
+
+def _cut(system: System, loads: Loads, state: State, b: slice) -> tuple[System, Loads, State]:
+    """Give the elements of one block; nodes are shared."""
+    if len(system.kind) <= BLOCK:
+        return system, loads, state
+    names = ("ends", "kind", "axes", "length", "radius", "angle", "rigidity", "flex", "spring")
+    return (
+        replace(system, **{name: getattr(system, name)[b] for name in names}),
+        replace(
+            loads, **{name: getattr(loads, name)[b] for name in ("dist", "strain", "curvature")}
+        ),
+        replace(state, end_force=state.end_force[b]),
+    )
+
+
+def _block(
+    system: System, loads: Loads, state: State, scale: Scale
+) -> tuple[F8, F8, F8, list[float]]:
+    """Errors of some elements.
+
+    Returns
+    -------
+    (n,) relative error of the balance.
+    (3, n) errors of the element law: translation [m], rotation [rad], and force of a spring
+        where it has no stiffness, relative.
+    (2, n) deformation by the element's own end force if it were all across [m, rad].  That force
+        is reported to 1e-16 of itself; where it lies along the pipe, this is what the rounding of
+        its direction amounts to.
+    (5,) largest deformations, relative movements and free expansion [m, rad, m, rad, m].
+    """
     tip = np.array(state.end_force[:, 1].T, order="C")
     d, dist = deformation.tip_vector(system), np.array(loads.dist.T, order="C")
     sums = tip + state.end_force[:, 0].T
@@ -135,43 +188,25 @@ def _elements(system: System, loads: Loads, state: State, scale: Scale) -> list[
     here = np.take(state.u, i, axis=0)
     rows, rest = two_difference(np.take(state.u, j, axis=0), here)
     rest += np.take(state.u_low, j, axis=0) - np.take(state.u_low, i, axis=0)
-    move, error = np.array(rows.T, order="C"), rest.T
-    turn = np.array(here[:, 3:].T, order="C")
+    move, turn = np.array(rows.T, order="C"), np.array(here[:, 3:].T, order="C")
     law = deformation.expected(system, loads, tip)
     spring = np.flatnonzero(system.kind == SPRING)
     if spring.size:
         turn[:, spring] += 0.5 * move[3:, spring]
     v = move.copy()
     v[:3] -= cross(turn, d)
-    v += error
-    stray = np.zeros(0)
+    v += rest.T
+    wrong, reach, ei = np.zeros((3, len(i))), system.length, system.rigidity[:, 2]
     if spring.size:
         v[:, spring], law[:, spring], stray = _spring(system, v, tip, d, spring)
-    length, angle = _deformed(system, loads, move, v, law, tip)
-    wrong = np.maximum(
-        np.abs(v - law)[:3].max(axis=0) / length, np.abs(v - law)[3:].max(axis=0) / angle
-    )
-    if spring.size:
-        wrong[spring] = np.maximum(wrong[spring], stray / scale.force)
-    name = _element(system)
-    return [_item("element_balance", balance, name), _item("element_law", wrong, name)]
-
-
-def _deformed(system: System, loads: Loads, move: F8, v: F8, law: F8, tip: F8) -> tuple[F8, F8]:
-    """(n_elem,) denominators of the element law [m, rad].
-
-    The largest deformation of all elements; at least 1e-4 of the largest relative movement and
-    free expansion, 1e-3 of the other kind over 1 m, and 1e-5 of what the element's own end force
-    would do if it were all across: in a force along the pipe that is the size of the round-off.
-    """
-    own, swing = largest(v[:3], law[:3]), largest(v[3:], law[3:])
-    free = loads.strain * system.length
-    length = floor(own, max(1e-4 * largest(move[:3], free), 1e-3 * swing))
-    angle = floor(swing, max(1e-4 * largest(move[3:]), 1e-3 * own))
-    reach, ei = system.length, system.rigidity[:, 2]
+        wrong[2, spring] = stray / scale.force
+    error = np.abs(v - law)
+    wrong[0], wrong[1] = error[:3].max(axis=0), error[3:].max(axis=0)
     soft = np.divide(reach * system.flex, ei, out=np.zeros_like(reach), where=ei > 0.0)
-    turn = soft * (reach * np.abs(tip[:3]).max(axis=0) + np.abs(tip[3:]).max(axis=0))
-    return np.maximum(length, 1e-5 * reach * turn), np.maximum(angle, 1e-5 * turn)
+    bent = soft * (reach * np.abs(tip[:3]).max(axis=0) + np.abs(tip[3:]).max(axis=0))
+    sizes = [largest(a[h]) for a in (v, move) for h in (slice(0, 3), slice(3, 6))]
+    sizes[0], sizes[1] = max(sizes[0], largest(law[:3])), max(sizes[1], largest(law[3:]))
+    return balance, wrong, np.stack([reach * bent, bent]), [*sizes, largest(loads.strain * reach)]
 
 
 def _spring(system: System, v: F8, tip: F8, d: F8, at: deformation.Index) -> tuple[F8, F8, F8]:

@@ -26,7 +26,7 @@ def check_model(model: Model) -> list[Problem]:
     if model.bends and stiffen != "OFF" and not chosen:
         text = f"DEFAULT: STIFFEN={stiffen}: nothing in the model gives that pressure"
         problems.append(Problem("model", text))
-    known = _known_labels(model)
+    known = known_labels(model)
     for label, place, name in standing(model):
         if label not in known:
             problems.append(Problem(place, f"{name}: node {label} is not defined"))
@@ -43,7 +43,7 @@ def _position(problem: Problem) -> tuple[str, int]:
     return getattr(problem.place, "file", ""), getattr(problem.place, "line", 0)
 
 
-def _known_labels(model: Model) -> set[str]:
+def known_labels(model: Model) -> set[str]:
     """Labels that have a place: of pipes, springs, NODE cards, bends.
 
     What only CNODE= of a known node names is known if a support or an imposed displacement

@@ -91,9 +91,10 @@ def _read(deck: Path) -> "Model":
 
 
 def _solve(model: "Model") -> "Results":
-    from trunnion.analysis import solve
+    import trunnion
 
-    return solve(model)
+    results: Results = trunnion.solve(model)
+    return results
 
 
 def _check_places(deck: Path, folder: Path, h5: bool) -> None:

@@ -75,9 +75,9 @@ def slider_of(contacts: Contacts, sliders: Sliders) -> NDArray[np.intp]:
 
 
 def solved(case: CaseResult) -> State:
-    """Return the numbers of a case, or refuse in words when it has none."""
-    if case.state is None:
-        raise ValueError(f"case {case.name} has no numbers: {case.cause or 'it did not converge'}")
+    """Return the numbers of a certified case; of any other refuse to, and say why."""
+    if case.state is None or not is_good(case):
+        raise ValueError(f"case {case.name} has no numbers: {cause_of(case)}")
     return case.state
 
 

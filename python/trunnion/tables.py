@@ -6,13 +6,15 @@ results["OPE"].elements.column("axial_from")
 """
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
 from trunnion.arrays import F8, CaseResult, Part
 from trunnion.balance import local_forces
+from trunnion.interior import mid_of_bend
 from trunnion.names import UnknownName
+from trunnion.stresses import Stresses, end_stresses
 from trunnion.supports import card_forces, card_friction, card_ids, card_states, solved
 
 Cell = float | str | None
@@ -82,12 +84,13 @@ class Table:
 
 
 def displacements(case: CaseResult) -> Table:
-    """Displacements of every node, global."""
+    """Displacements of every node and of the bends' middles, global."""
     units = ("m",) * 3 + ("rad",) * 3
     columns = ("ux", "uy", "uz", "rx", "ry", "rz")
-    system = case.system
-    index = system.alias | _index(system.labels)
-    return Table(system.labels, columns, units, solved(case).u, {}, index)
+    system, u, middles = case.system, solved(case).u, mid_of_bend(case)
+    labels = (*system.labels, *middles)
+    values = np.vstack([u, *middles.values()])
+    return Table(labels, columns, units, values, {}, system.alias | _index(labels))
 
 
 def supports(case: CaseResult) -> Table:
@@ -121,6 +124,19 @@ def elements(case: CaseResult) -> Table:
     }
     ids = element_ids(parts)
     return Table(ids, columns, units, both.reshape(-1, 24), words, _index(ids))
+
+
+def stresses(case: CaseResult) -> Table:
+    """Nominal stresses at both ends of every pipe [Pa]."""
+    element, *ends = end_stresses(case)
+    names = [*(field.name for field in fields(Stresses)), "longitudinal"]
+    found = {
+        f"{n}_{e}": getattr(s, n) for e, s in zip(("from", "to"), ends, strict=True) for n in names
+    }
+    ids = element_ids(case.system.parts)
+    labels = tuple(ids[i] for i in element.tolist())
+    values = np.column_stack(list(found.values()))
+    return Table(labels, tuple(found), ("Pa",) * len(found), values, {}, _index(labels))
 
 
 def _index(labels: Sequence[str]) -> dict[str, int]:

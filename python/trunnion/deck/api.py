@@ -7,7 +7,7 @@ from trunnion.deck.checks import check
 from trunnion.deck.context import Carried, Context
 from trunnion.deck.directions import read_directions
 from trunnion.deck.equations import check_case_name, read_expression
-from trunnion.deck.fields import fields_of, missing_keys, read_fields, read_key
+from trunnion.deck.fields import fields_of, read_fields, read_key
 from trunnion.deck.interpreter import apply
 from trunnion.deck.keywords import KEYWORDS
 from trunnion.deck.record import Fault, Mark, Record
@@ -31,11 +31,11 @@ def add(
     ------
     DeckError : with every problem of the call; the model is as before.
     """
-    faults: list[Fault] = []
+    heard: list[tuple[str, Mark]] = []
     record = Record(keyword, place)
 
     def complain(message: str, mark: Mark) -> None:
-        faults.append(Fault(place, record.head, message, mark))
+        heard.append((message, mark))
 
     fields = fields_of(_SI)
     given = [(k.upper(), _plain(v)) for k, v in keys.items() if v is not None]
@@ -50,8 +50,7 @@ def add(
         read_directions(record, [args[0], *given, *_flat(args[1:])], fields, complain)
     else:
         read_fields(record, [*args, *given], fields, complain)
-        if not faults:
-            missing_keys(record, complain)
+    faults = [Fault(place, record.head, message, mark) for message, mark in heard]
     carried = model.carried or Carried()
     kept = carried.section, carried.material, carried.operation
     if not faults:

@@ -3,6 +3,7 @@
 from collections import Counter
 from collections.abc import Iterable, Iterator
 
+from trunnion.checks import known_labels
 from trunnion.deck import expressions as ex
 from trunnion.deck.record import Fault, Mark
 from trunnion.deck.values import nearest
@@ -111,7 +112,7 @@ def _bends(model: Model, broken: frozenset[str] | set[str]) -> Iterator[Fault]:
 
 def _nodes(model: Model, broken: frozenset[str] | set[str]) -> Iterator[Fault]:
     """Check that nodes on all other cards exist."""
-    known = {label for label, _, _ in _own_labels(model)} | _bend_points(model)
+    known = known_labels(model)
     uses: list[tuple[str, Place, str, Mark]] = []
     uses += [(b.node, b.place, "BEND", b.node) for b in model.bends]
     uses += [(m.node, m.place, "MASS", m.node) for m in model.masses]
@@ -164,9 +165,9 @@ def _corner(label: str, model: Model) -> str:
 
 def _pipes(model: Model, broken: frozenset[str] | set[str]) -> Iterator[Fault]:
     """Check sections and materials of pipes, and that there is something to solve."""
-    held = model.nodes and model.supports  # a node on springs or in contact needs no pipe
-    if not (model.pipes or model.springs or held or broken):
-        yield Fault(Place("", 0), "", "no PIPE card: there is nothing to solve")
+    if not (model.pipes or model.springs or model.supports or broken):
+        message = "no PIPE, SPRING or SUPPORT card: there is nothing to solve"
+        yield Fault(Place("", 0), "", message)
     told = {"", *broken}
     for pipe in model.pipes:
         for what, name, known in (

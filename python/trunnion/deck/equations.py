@@ -11,23 +11,18 @@ _KEYS = re.compile(r"(?:^|\s)([A-Z_0-9]+)=", re.I)
 _NAME = re.compile(r"[A-Z_][A-Z0-9_.]{0,31}")
 
 
-def read_equation(
-    record: Record, text: str, at: int, fields: Fields, complain: Complain
-) -> list[tuple[str, int, int]]:
-    """Fill a CASE or COMB from "name = expression KEY=VALUE ...", which starts at `at`.
-
-    Gives the names in the expression with their places on the card.
-    """
+def read_equation(record: Record, text: str, at: int, fields: Fields, complain: Complain) -> None:
+    """Fill a CASE or COMB from "name = expression KEY=VALUE ...", which starts at `at`."""
     name, equals, rest = text.partition("=")
     form = f"write {record.keyword} name = ..."
     name = name.strip()
     if name.split() and (not equals or len(name.split()) > 1):
         record.args.append(name.split()[0].upper())
         complain(f"= missing after the name; {form}", (at, at + len(name)))
-        return []
+        return
     if not name:
         complain(f"name missing; {form}", None)
-        return []
+        return
     record.args.append(name.upper())
     check_case_name(record, (at, at + len(name)), complain)
     start = at + text.index("=") + 1
@@ -43,7 +38,7 @@ def read_equation(
             value = spaced[match.end() : stop].strip()
             span = (start + match.start(1), start + stop)
             read_key(record.keys, span, (key, value), record.keyword, readers, complain)
-    return read_expression(record, rest[:keys_from], start, complain)
+    read_expression(record, rest[:keys_from], start, complain)
 
 
 def check_case_name(record: Record, mark: Mark, complain: Complain) -> None:
@@ -55,18 +50,14 @@ def check_case_name(record: Record, mark: Mark, complain: Complain) -> None:
         complain(f"{name} is the name of a load set or function, not of a case", mark)
 
 
-def read_expression(
-    record: Record, text: str, at: int, complain: Complain
-) -> list[tuple[str, int, int]]:
+def read_expression(record: Record, text: str, at: int, complain: Complain) -> None:
     """Parse the expression of a CASE or COMB into the record."""
     if not text.strip():
         complain(
             f"nothing stands after =; write for instance {KEYWORDS[record.keyword].example}", None
         )
-        return []
+        return
     try:
-        record.expression, names = ex.parse(text)
+        record.expression = ex.parse(text)
     except ex.ExpressionError as fault:
         complain(str(fault), (at + fault.start, at + fault.stop))
-        return []
-    return [(name, at + start, at + stop) for name, start, stop in names]

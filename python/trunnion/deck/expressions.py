@@ -56,7 +56,7 @@ class _Parser:
         self.end = len(text.rstrip())
         self.at = 0
         self.depth = 0
-        self.names: list[tuple[str, int, int]] = []
+        self.names = 0
 
     def peek(self) -> str:
         """Text of the next token, "" at the end."""
@@ -96,7 +96,7 @@ class _Parser:
         """Read one product."""
         if self.at >= len(self.tokens):
             self.fail("a name is missing at the end")
-        kind, text, start, stop = self.tokens[self.at]
+        kind, text, *_ = self.tokens[self.at]
         self.at += 1
         if kind == "number":
             if self.peek() != "*":
@@ -118,11 +118,15 @@ class _Parser:
         if kind == "name" and self.peek() == "(":
             return self.function(text)
         if kind == "name":
-            self.names.append((text, start, stop))
-            if len(self.names) > MAX_NAMES:
-                self.fail(f"more than {MAX_NAMES} names", self.at - 1)
+            self.count_name(self.at - 1)
             return ("case", text)
         self.fail(f"{text} where a name or a number should stand", self.at - 1)
+
+    def count_name(self, token: int) -> None:
+        """Keep expressions short enough for recursion."""
+        self.names += 1
+        if self.names > MAX_NAMES:
+            self.fail(f"more than {MAX_NAMES} names", token)
 
     def function(self, text: str) -> Expression:
         """Read ABS(expression) or U(x,y,z)."""
@@ -153,14 +157,12 @@ class _Parser:
             if len(parts) < 3:
                 self.take(",")
         self.take(")")
-        if len(self.names) >= MAX_NAMES:
-            self.fail(f"more than {MAX_NAMES} names", start)
-        self.names.append(("U", self.tokens[start][2], self.tokens[self.at - 1][3]))
+        self.count_name(start)
         return ("vector", *parts)
 
 
-def parse(text: str) -> tuple[Expression, list[tuple[str, int, int]]]:
-    """Parse an expression; gives it and every name in it with its place in the text."""
+def parse(text: str) -> Expression:
+    """Parse an expression; an ExpressionError tells where it goes wrong."""
     parser = _Parser(text)
     expression = parser.sum()
     if parser.at < len(parser.tokens):
@@ -169,7 +171,7 @@ def parse(text: str) -> tuple[Expression, list[tuple[str, int, int]]]:
             parser.fail(") has no (")
         hint = "; * binds a number on the left of a name" if word == "*" else ""
         parser.fail(f"{word} where + or - should stand{hint}")
-    return expression, parser.names
+    return expression
 
 
 def terms(expression: Expression, factor: float = 1.0) -> list[Term]:

@@ -46,6 +46,7 @@ def fields_of(units: Units) -> Fields:
 
 _POSITIONALS: dict[str, tuple[Positional, ...]] = {k: w.positionals for k, w in KEYWORDS.items()}
 _FAMILIES = frozenset((*TEMPERATURE_SETS, *PRESSURE_SETS))
+_REQUIRED = {k: tuple(key.name for key in w.keys if key.required) for k, w in KEYWORDS.items()}
 _LABELS: dict[str, str] = {}
 
 
@@ -82,9 +83,14 @@ def read_fields(record: Record, items: list[Any], fields: Fields, complain: Comp
                 complain(str(fault), i)
         else:
             complain(_one_too_many(str(item), record.keyword, len(wanted)), i)
+    if len(keys) + len(args) < len(items):
+        return  # a misspelling is told; what is missing may be what was meant
     missing = [p for p in wanted[len(args) :] if not p.optional]
-    if missing and len(keys) + len(args) == len(items):  # else a misspelling
+    if missing:
         complain(f"{' and '.join(_described(p) for p in missing)} missing", None)
+    for name in _REQUIRED[record.keyword]:
+        if name not in keys:
+            complain(f"{name}= is missing", None)
 
 
 def _named(name: str, fault: WordError) -> str:
@@ -138,13 +144,6 @@ def _positional(item: Any, wanted: Positional) -> str:
         what = "load set" if wanted.kind == "set" else "word"
         raise WordError(f"{what} {item} is not one of {' '.join(wanted.choices)}")
     return found
-
-
-def missing_keys(record: Record, complain: Complain) -> None:
-    """Complain of keys that must be given."""
-    for key in KEYWORDS[record.keyword].keys:
-        if key.required and key.name not in record.keys:
-            complain(f"{key.name}= is missing", None)
 
 
 def read_key(

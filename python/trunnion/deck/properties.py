@@ -22,6 +22,7 @@ def default(run: Context, record: Record) -> None:
     for key, value in record.keys.items():
         if run.carried.defaults.setdefault(key, value) != value:
             run.complain(record, f"{key} has another value on an earlier DEFAULT card", f"{key}=")
+            return
         settings[key.lower()] = value == "ON" if key in ("SHEAR", "EVENTS") else value
     run.model.settings = replace(run.model.settings, **settings)
 

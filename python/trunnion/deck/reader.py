@@ -9,7 +9,7 @@ from trunnion.deck.checks import check
 from trunnion.deck.context import Carried, Context
 from trunnion.deck.directions import read_directions
 from trunnion.deck.equations import read_equation
-from trunnion.deck.fields import Fields, fields_of, missing_keys, read_fields
+from trunnion.deck.fields import Fields, fields_of, read_fields
 from trunnion.deck.interpreter import apply
 from trunnion.deck.keywords import KEYWORDS
 from trunnion.deck.markers import show, tidy
@@ -128,33 +128,22 @@ class _Reading:
             self._unknown(card, word)
             return
         record = Record(word, Place(card.file, card.line))
-        before = len(self.faults)
+        heard: list[tuple[str, Mark]] = []
 
         def complain(message: str, mark: Mark) -> None:
-            self.faults.append(Fault(record.place, record.head, message, mark))
+            heard.append((message, mark))
 
-        text = card.text
+        before = len(self.faults)
         if known.form == "equation":
-            start = len(word) + len(text[len(word) :]) - len(text[len(word) :].lstrip())
-            names = read_equation(record, text[start:], start, fields, complain)
-            if len(self.faults) > before:
-                self.carried.broken.update(name for name, *_ in names)
+            rest = card.text[len(word) :].lstrip()
+            read_equation(record, rest, len(card.text) - len(rest), fields, complain)
+        elif known.form == "directions":
+            read_directions(record, _items(card.text), fields, complain)
         else:
-            if " =" in text or "= " in text or ", " in text or " ," in text or "(" in text:
-                text = tidy(text)
-            items: list[Any] = text.split()
-            del items[0]
-            for i, item in enumerate(items):
-                if "=" in item:
-                    key, _, value = item.partition("=")
-                    items[i] = (key.upper(), value)
-            if known.form == "directions":
-                read_directions(record, items, fields, complain)
-            else:
-                read_fields(record, items, fields, complain)
-                if len(self.faults) == before:  # else one may be misspelled
-                    missing_keys(record, complain)
-        if len(self.faults) == before:
+            read_fields(record, _items(card.text), fields, complain)
+        if heard:
+            self.faults += [Fault(record.place, record.head, *said) for said in heard]
+        else:
             apply(self.context, record)
         if len(self.faults) > before:
             self.context.give_up(record)
@@ -167,6 +156,19 @@ class _Reading:
         hint = nearest(word, KEYWORDS)
         also = hint or f" (keywords: {' '.join(KEYWORDS)})"
         self._fault(card, word, f"unknown keyword{also}", 0)
+
+
+def _items(text: str) -> list[Any]:
+    """Split a card after its keyword into words and pairs (KEY, value)."""
+    if " =" in text or "= " in text or ", " in text or " ," in text or "(" in text:
+        text = tidy(text)
+    items: list[Any] = text.split()
+    del items[0]
+    for i, item in enumerate(items):
+        if "=" in item:
+            key, _, value = item.partition("=")
+            items[i] = (key.upper(), value)
+    return items
 
 
 def _problems(deck: Deck, faults: list[Fault]) -> list[Problem]:

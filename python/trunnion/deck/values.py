@@ -36,13 +36,13 @@ def number(text: object, scale: Scale, dimension: str) -> float:
             value = scale(float(text))
         except ValueError:
             value = _suffixed(text, dimension)
-    elif isinstance(text, bool) or not isinstance(text, (int, float)):
-        try:
-            value = scale(float(text))  # type: ignore[arg-type] # numpy's numbers
-        except (TypeError, ValueError):
-            raise WordError(f"{text!r} is not a number") from None
     else:
-        value = scale(float(text))
+        try:
+            if isinstance(text, bool):
+                raise TypeError
+            value = scale(float(text))  # type: ignore[arg-type] # numbers of numpy, too
+        except (TypeError, ValueError, OverflowError):
+            raise WordError(f"{text!r} is not a number") from None
     if value - value != 0.0:
         raise WordError(f"{text} is not a finite number")
     return value
@@ -55,8 +55,6 @@ def _suffixed(text: str, dimension: str) -> float:
     if found is None:
         raise WordError(f"{text or 'nothing'} is not a number")
     suffix = text[found.end() :].strip()
-    if not suffix:
-        return scale_of("", dimension)(float(found[0])) if dimension == "number" else float("nan")
     try:
         return scale_of(suffix, dimension)(float(found[0]))
     except SuffixError as error:

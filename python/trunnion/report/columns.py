@@ -1,5 +1,6 @@
 """Columns of the text report: aligned, no wider than the page, whole arrays at a time."""
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import chain
@@ -24,11 +25,6 @@ class Column:
     width: int
     cells: Sequence[object]
     left: bool = False
-
-    @property
-    def last(self) -> str:
-        """Form at the end of a row: no spaces after words."""
-        return "%s" if self.left else self.form
 
     def heading(self, text: str) -> str:
         """Set a heading as the cells are set."""
@@ -94,9 +90,12 @@ def table(columns: Sequence[Column], *, none: str = "none") -> str:
     if not count:
         return f"  {none}\n"
     columns = fitted(columns)
-    form = "  " + "".join(c.form for c in columns[:-1]) + columns[-1].last + "\n"
+    form = "  " + "".join(c.form for c in columns) + "\n"
     cells = chain.from_iterable(zip(*(c.cells for c in columns), strict=True))
-    return headings(columns) + (form * count) % tuple(cells)
+    rows = (form * count) % tuple(cells)
+    if columns[-1].left:
+        rows = re.sub(" +$", "", rows, flags=re.MULTILINE)
+    return headings(columns) + rows
 
 
 def headings(columns: Sequence[Column]) -> str:

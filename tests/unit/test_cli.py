@@ -1,0 +1,180 @@
+"""Exit codes, messages and files of the command line."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+import trunnion
+from trunnion.cli import main
+
+BAD = "PIPE 10 20 DX=1\nPIPPE 20 30\n"
+
+
+@pytest.fixture
+def home(tmp_path, deck, monkeypatch):
+    (tmp_path / "a.inp").write_text(deck)
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.fixture
+def solves(monkeypatch, results):
+    """Give the known answer for any model."""
+    monkeypatch.setattr(trunnion, "solve", lambda model: results, raising=False)
+    return results
+
+
+def trunnion_exit(*arguments: object) -> int:
+    with pytest.raises(SystemExit) as stop:
+        main([str(a) for a in arguments])
+    return stop.value.code
+
+
+def files(folder: Path) -> list[str]:
+    return sorted(p.name for p in folder.iterdir())
+
+
+def test_certified_run_exits_0_and_writes_two_files(home, solves, capsys):
+    del solves.cases["OFF"]
+    assert trunnion_exit("run", "a.inp") == 0
+    assert files(home) == ["a.inp", "a.json", "a.out"]
+    out = capsys.readouterr().out
+    assert len(out.splitlines()) <= 24
+    assert "certified" in out
+    assert "read" not in out
+
+
+def test_a_case_that_fails_exits_1_and_the_good_ones_are_written(home, solves, capsys):
+    assert trunnion_exit("run", "a.inp", "-o", "there", "--h5", "--timings") == 1
+    assert files(home / "there") == ["a.h5", "a.json", "a.out"]
+    cases = json.loads((home / "there" / "a.json").read_text())["cases"]
+    assert [case["converged"] for case in cases.values()] == [True, False, True]
+    assert " s, solve " in capsys.readouterr().out
+
+
+def test_nothing_of_the_machine_is_in_the_files(home, solves):
+    trunnion_exit("run", "a.inp", "-o", "one")
+    trunnion_exit("run", home / "a.inp", "-o", home / "two", "--timings")
+    for name in ("a.out", "a.json"):
+        text = (home / "one" / name).read_bytes()
+        assert text == (home / "two" / name).read_bytes()
+        assert str(home).encode() not in text
+
+
+def test_wrong_deck_exits_2_with_its_line_and_writes_nothing(home, solves, capsys):
+    (home / "b.inp").write_text(BAD)
+    assert trunnion_exit("run", "b.inp", "-o", "there") == 2
+    captured = capsys.readouterr()
+    assert captured.out == ""
+    assert "b.inp:2: " in captured.err
+    assert "nothing was solved" in captured.err
+    assert "Traceback" not in captured.err
+    assert files(home) == ["a.inp", "b.inp"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["run"], "Missing argument"),
+        (["run", "none.inp"], "none.inp"),
+        (["run", "."], ""),
+        (["run", "a.inp", "--fast"], "--fast"),
+        (["walk", "a.inp"], "walk"),
+        (["run", "a.json"], "must not be called"),
+        (["run", "a.inp", "-o", "a.inp"], "not a folder"),
+    ],
+)
+def test_wrong_command_exits_2(home, solves, capsys, arguments, said):
+    assert trunnion_exit(*arguments) == 2
+    captured = capsys.readouterr()
+    assert said in captured.err
+    assert "Traceback" not in captured.err
+    assert files(home) == ["a.inp"]
+
+
+def test_check_reads_and_numbers_without_solving(home, capsys):
+    assert trunnion_exit("check", "a.inp") == 0
+    assert "3 nodes, 2 elements, 2 supports, 3 cases" in capsys.readouterr().out
+    assert files(home) == ["a.inp"]
+
+
+def test_check_refuses_what_run_refuses(home, capsys):
+    (home / "b.inp").write_text(BAD)
+    assert trunnion_exit("check", "b.inp") == 2
+    assert "b.inp:2: " in capsys.readouterr().err
+
+
+def test_internal_error_exits_3_with_a_log_and_no_traceback(home, monkeypatch, capsys):
+    def breaks(model):
+        raise ZeroDivisionError("a number was zero")
+
+    monkeypatch.setattr(trunnion, "solve", breaks, raising=False)
+    assert trunnion_exit("run", "a.inp") == 3
+    captured = capsys.readouterr()
+    assert "ZeroDivisionError: a number was zero" in captured.err
+    assert "Traceback" not in captured.err
+    (log,) = (p for p in home.iterdir() if p.suffix == ".log")
+    assert "breaks" in log.read_text()
+    assert not [p for p in home.iterdir() if p.suffix in (".out", ".json")]
+
+
+def test_nan_in_an_answer_is_an_internal_error(home, solves):
+    solves["OPE"].state.u[0, 0] = float("nan")
+    assert trunnion_exit("run", "a.inp") == 3
+    assert not (home / "a.out").exists()
+
+
+@pytest.mark.parametrize(("signal_", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+def test_interruption_leaves_nothing_half_written(home, signal_, code):
+    script = (
+        "import sys, time, trunnion\n"
+        "def slow(model):\n"
+        "    print('solving', flush=True)\n"
+        "    time.sleep(60)\n"
+        "trunnion.solve = slow\n"
+        "from trunnion.cli import main\n"
+        "main(['run', 'a.inp'])\n"
+    )
+    process = subprocess.Popen(
+        [sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    assert process.stdout.readline() == "solving\n"
+    process.send_signal(signal_)
+    _, said = process.communicate(timeout=30)
+    assert process.returncode == code
+    assert "Traceback" not in said
+    assert files(home) == ["a.inp"]
+
+
+def test_interruption_while_writing_keeps_the_old_report(home, solves, monkeypatch):
+    assert trunnion_exit("run", "a.inp") == 1
+    old = (home / "a.out").read_bytes()
+
+    def fsync(number: int) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(os, "fsync", fsync)
+    solves.title = "another"
+    assert trunnion_exit("run", "a.inp") == 130
+    assert (home / "a.out").read_bytes() == old
+    assert files(home) == ["a.inp", "a.json", "a.out"]
+
+
+def test_start_up_loads_nothing_heavy(home):
+    script = (
+        "import sys, trunnion.cli, trunnion.report.text, trunnion.report.json\n"
+        "heavy = {'pint', 'fluids', 'h5py', 'scipy', 'matplotlib', 'rich', 'pandas'}\n"
+        "print(sorted(heavy & set(sys.modules)))\n"
+    )
+    start = time.perf_counter()
+    found = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, check=True
+    )
+    assert found.stdout == "[]\n"
+    assert time.perf_counter() - start < 5

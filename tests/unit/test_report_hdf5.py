@@ -1,0 +1,43 @@
+"""The HDF5 report is whole: the certificate can be judged again from it."""
+
+from io import BytesIO
+
+import numpy as np
+import pytest
+
+h5py = pytest.importorskip("h5py")
+
+from trunnion.report.hdf5 import hdf5_report  # noqa: E402
+
+
+@pytest.fixture
+def file(results):
+    with h5py.File(BytesIO(hdf5_report(results)), "r") as file:
+        yield file
+
+
+def test_arrays_of_the_state_come_back_exactly(file, scene):
+    _, system, loads, state = scene
+    for name in state.__slots__:
+        assert np.array_equal(file[f"cases/OPE/state/{name}"][()], getattr(state, name))
+    assert np.array_equal(file["cases/OPE/loads/nodal"][()], loads.nodal)
+    assert np.array_equal(file["model/contacts/gap"][()], system.contacts.gap)
+
+
+def test_labels_and_names_are_text(file):
+    assert list(file["model/nodes/label"].asstr()[:]) == ["10", "20", "30"]
+    assert list(file["case_names"].asstr()[:]) == ["OPE", "OFF", "TWO"]
+    assert list(file["model/supports/name"].asstr()[:]) == ["10 ANCHOR", "30 +Y GUIDE"]
+
+
+def test_a_case_that_did_not_converge_has_no_numbers(file):
+    case = file["cases/OFF"]
+    assert case.attrs["cause"] == "friction cycles at 30 +Y"
+    assert "state" not in case
+    assert "support_force" not in case
+
+
+def test_same_results_give_the_same_bytes_later(results, monkeypatch):
+    first = hdf5_report(results)
+    monkeypatch.setattr("time.time", lambda: 4e9)
+    assert hdf5_report(results) == first
