@@ -4,7 +4,7 @@
 !> node j holds its 6 - c diagonal entries, then six rows for each higher neighbour in order.
 !> So the place of a block is one number, the neighbour's `rank` in node j's list.
 module assembly
-   use frame, only: cross_matrix
+   use frame, only: cross_matrix, turn_matrix
    use kinds, only: ip, wp
    implicit none (type, external)
    private
@@ -12,18 +12,20 @@ module assembly
 
 contains
 
-   !> Add the 12 by 12 of an element with tip stiffness `k`.
-   pure subroutine add_element(k, d, ends, rank, colptr, val)
-      real(wp), intent(in) :: k(6, 6)          !! at the tip, global axes
+   !> Add the 12 by 12 of an element with tip stiffness `local`.
+   pure subroutine add_element(local, axes, d, ends, rank, colptr, val)
+      real(wp), intent(in) :: local(6, 6)      !! at the tip, element axes
+      real(wp), intent(in) :: axes(3, 3)       !! columns ex, ey, ez, global
       real(wp), intent(in) :: d(3)             !! from end 1 to end 2 [m]
       integer(ip), intent(in) :: ends(2)       !! 0-based nodes
       integer(ip), intent(in) :: rank          !! 0-based, of the higher node at the lower one
       integer(ip), intent(in) :: colptr(:)
       real(wp), intent(inout) :: val(:)
 
-      real(wp) :: k12(6, 6), k11(6, 6), s(3, 3)
+      real(wp) :: k(6, 6), k12(6, 6), k11(6, 6), s(3, 3)
 
       ! v = b u1 + u2 with b = [-1, [d]; 0, -1], so K12 = b' k and K11 = b' k b
+      k = turn_matrix(axes, local)
       s = cross_matrix(d)
       k12(1:3, :) = -k(1:3, :)
       k12(4:6, :) = matmul(transpose(s), k(1:3, :)) - k(4:6, :)

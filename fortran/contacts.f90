@@ -3,7 +3,7 @@ module contacts
    use assembly, only: add_contact
    use extended, only: add_dd
    use kinds, only: ip, wp
-   use support, only: contact_law, mode_slip, project, slider_law
+   use support, only: contact_law, hold_two_way, mode_slip, project, slider_law
    implicit none (type, external)
    private
    public :: accumulate, add_tangents, contact_pass, contact_product, coupling_product
@@ -11,7 +11,7 @@ module contacts
 
    ! rows of `at`: where a contact or a slider acts
    integer, parameter, public :: at_node = 1, at_cnode = 2, at_rank = 3, at_offset = 4
-   integer, parameter, public :: at_dim = 5, at_two_way = 6, n_at = 6
+   integer, parameter, public :: at_dim = 5, at_hold = 6, n_at = 6
 
 contains
 
@@ -44,9 +44,9 @@ contains
       do i = 1_ip, size(k, kind=ip)
          call relative(at(:, i), base(:, i), u, low, w, w_low)
          call contact_law(at(at_dim, i), normal(:, :, i), gap(:, i), k(i), &
-            & at(at_two_way, i) /= 0_ip, w, w_low, side(i), reaction(:, i), tangent(:, :, i))
+            & at(at_hold, i), w, w_low, side(i), reaction(:, i), tangent(:, :, i))
          reaction(:, i) = reaction(:, i) + preload(:, i)
-         if (changing .and. at(at_two_way, i) /= 0_ip) cycle
+         if (changing .and. at(at_hold, i) == hold_two_way) cycle
          call add_force(at(:, i), reaction(:, i), r)
       end do
       do i = 1_ip, size(kf, kind=ip)
@@ -132,7 +132,7 @@ contains
       integer(ip) :: i
 
       do i = 1_ip, size(at, 2, ip)
-         if (at(at_two_way, i) /= 0_ip) cycle
+         if (at(at_hold, i) == hold_two_way) cycle
          call rate(at(:, i), p, dw)
          call add_force(at(:, i), -matmul(tangent(:, :, i), dw), r)
       end do
@@ -164,7 +164,7 @@ contains
       integer(ip) :: i
 
       do i = 1_ip, size(at, 2, ip)
-         if ((at(at_two_way, i) /= 0_ip) .neqv. two_way) cycle
+         if ((at(at_hold, i) == hold_two_way) .neqv. two_way) cycle
          call add_contact(tangent(:, :, i), at(at_offset, i), at(at_node, i), at(at_cnode, i), &
             & at(at_rank, i), colptr, val)
       end do

@@ -6,7 +6,7 @@
 module element
    use beam, only: beam_flexibility, beam_free_deformation, beam_stiffness
    use bend, only: arc_flexibility, arc_free_deformation, arc_moment
-   use frame, only: cross, cross_matrix, turn_matrix
+   use frame, only: cross, cross_matrix
    use kinds, only: ip, wp
    use status_codes, only: status_bad_section, status_ok, status_zero_length
    implicit none (type, external)
@@ -65,7 +65,7 @@ contains
       end if
    end function tip_resultant
 
-   !> Stiffness at the tip in global axes.
+   !> Stiffness at the tip in the axes of end 1.
    pure subroutine tip_stiffness(kind, length, radius, angle, rigidity, flex, spring, axes, d, &
          & k, status)
       integer(ip), intent(in) :: kind
@@ -76,12 +76,10 @@ contains
       real(wp), intent(out) :: k(6, 6)
       integer(ip), intent(out) :: status
 
-      real(wp) :: local(6, 6)
-
       status = status_ok
       k(:, :) = 0.0_wp
       if (kind == kind_spring) then
-         k = spring_stiffness(spring, axes, d)
+         k = spring_stiffness(spring, matmul(d, axes))
          return
       end if
       if (.not. (length > 0.0_wp)) then
@@ -93,17 +91,16 @@ contains
          return
       end if
       if (kind == kind_arc) then
-         call invert(arc_flexibility(radius, angle, rigidity, flex), local, status)
-         if (status /= status_ok) return
+         call invert(arc_flexibility(radius, angle, rigidity, flex), k, status)
       else
-         local = beam_stiffness(length, rigidity, flex)
+         k = beam_stiffness(length, rigidity, flex)
       end if
-      k = turn_matrix(axes, local)
    end subroutine tip_stiffness
 
    !> A spring at mid-distance: its deformation there is v + (r2 - r1)/2 carried by -d.
-   pure function spring_stiffness(spring, axes, d) result(k)
-      real(wp), intent(in) :: spring(6), axes(3, 3), d(3)
+   pure function spring_stiffness(spring, d) result(k)
+      real(wp), intent(in) :: spring(6)
+      real(wp), intent(in) :: d(3)           !! in its own axes
       real(wp) :: k(6, 6)
 
       real(wp) :: t(6, 6), diagonal(6, 6)
@@ -118,7 +115,7 @@ contains
          t(i, i) = 1.0_wp
       end do
       t(1:3, 4:6) = 0.5_wp*cross_matrix(d)
-      k = matmul(transpose(t), matmul(turn_matrix(axes, diagonal), t))
+      k = matmul(transpose(t), matmul(diagonal, t))
       k = 0.5_wp*(k + transpose(k))
    end function spring_stiffness
 

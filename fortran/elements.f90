@@ -12,7 +12,7 @@ module elements
 
 contains
 
-   !> Tip stiffness of every element in global axes; `info` is the first bad element.
+   !> Tip stiffness of every element in its axes; `info` is the first bad element.
    pure subroutine element_stiffness(kind, form, rigidity, flex, spring, axes, d, k, status, info)
       integer(ip), intent(in) :: kind(:)
       real(wp), intent(in) :: form(:, :)       !! (3, n) length [m], radius [m], angle [rad]
@@ -35,7 +35,7 @@ contains
       end do
    end subroutine element_stiffness
 
-   !> Free tip deformation and load resultant (about end 1) of every element, global axes.
+   !> Free tip deformation (element axes) and load resultant about end 1 (global).
    pure subroutine element_loads(kind, form, rigidity, flex, axes, dist, strain, curvature, v0, w)
       integer(ip), intent(in) :: kind(:)
       real(wp), intent(in) :: form(:, :), rigidity(:, :), flex(:), axes(:, :, :)
@@ -48,30 +48,30 @@ contains
 
       do i = 1_ip, size(kind, kind=ip)
          load = matmul(dist(:, i), axes(:, :, i))
-         v0(:, i) = turn_to_global(axes(:, :, i), tip_deformation(kind(i), form(1, i), &
-            & form(2, i), form(3, i), rigidity(:, i), flex(i), load, strain(i), curvature(i)))
+         v0(:, i) = tip_deformation(kind(i), form(1, i), form(2, i), form(3, i), rigidity(:, i), &
+            & flex(i), load, strain(i), curvature(i))
          w(:, i) = turn_to_global(axes(:, :, i), &
             & tip_resultant(kind(i), form(1, i), form(2, i), form(3, i), load))
       end do
    end subroutine element_loads
 
    !> Add every element to the values of the global stiffness.
-   pure subroutine assemble_elements(k, d, ends, rank, colptr, val)
-      real(wp), intent(in) :: k(:, :, :), d(:, :)
+   pure subroutine assemble_elements(k, axes, d, ends, rank, colptr, val)
+      real(wp), intent(in) :: k(:, :, :), axes(:, :, :), d(:, :)
       integer(ip), intent(in) :: ends(:, :), rank(:), colptr(:)
       real(wp), intent(inout) :: val(:)
 
       integer(ip) :: i
 
       do i = 1_ip, size(rank, kind=ip)
-         call add_element(k(:, :, i), d(:, i), ends(:, i), rank(i), colptr, val)
+         call add_element(k(:, :, i), axes(:, :, i), d(:, i), ends(:, i), rank(i), colptr, val)
       end do
    end subroutine assemble_elements
 
    !> End forces on every element; subtracts them from the nodes' out-of-balance `r`.
-   pure subroutine element_end_forces(ends, d, k, v0, w, u, low, f, r)
+   pure subroutine element_end_forces(ends, axes, d, k, v0, w, u, low, f, r)
       integer(ip), intent(in) :: ends(:, :)
-      real(wp), intent(in) :: d(:, :), k(:, :, :), v0(:, :), w(:, :)
+      real(wp), intent(in) :: axes(:, :, :), d(:, :), k(:, :, :), v0(:, :), w(:, :)
       real(wp), intent(in) :: u(:, :), low(:, :)   !! displacements (6, n_node), high and low
       real(wp), intent(out) :: f(:, :, :)          !! (6, 2, n) global, on the element
       real(wp), intent(inout) :: r(:, :)
@@ -82,8 +82,8 @@ contains
       do i = 1_ip, size(ends, 2, ip)
          a = ends(1, i) + 1_ip
          b = ends(2, i) + 1_ip
-         v = deformation(d(:, i), u(:, a), low(:, a), u(:, b), low(:, b), v0(:, i))
-         f(:, :, i) = end_forces(k(:, :, i), d(:, i), v, w(:, i))
+         v = deformation(d(:, i), axes(:, :, i), u(:, a), low(:, a), u(:, b), low(:, b), v0(:, i))
+         f(:, :, i) = end_forces(k(:, :, i), axes(:, :, i), d(:, i), v, w(:, i))
          r(:, a) = r(:, a) - f(:, 1, i)
          r(:, b) = r(:, b) - f(:, 2, i)
       end do

@@ -1,9 +1,9 @@
 !> Exact line search on the convex energy of fixed capacities.
 module search
-   use contacts, only: at_dim, at_two_way, in_plane, rate, relative
+   use contacts, only: at_dim, at_hold, in_plane, rate, relative
    use extended, only: add_dd
    use kinds, only: ip, wp
-   use support, only: contact_law, slider_law
+   use support, only: contact_law, hold_two_way, slider_law
    implicit none (type, external)
    private
    public :: line_search
@@ -91,10 +91,10 @@ contains
          integer(ip) :: j, state
 
          do j = 1_ip, size(k, kind=ip)
-            if (at(at_two_way, j) /= 0_ip) cycle
+            if (at(at_hold, j) == hold_two_way) cycle
             call along(at(:, j), base(:, j), u, low, p, s, w, w_low, dw)
-            call contact_law(at(at_dim, j), normal(:, :, j), gap(:, j), k(j), .false., w, w_low, &
-               & state, force, tangent)
+            call contact_law(at(at_dim, j), normal(:, :, j), gap(:, j), k(j), at(at_hold, j), w, &
+               & w_low, state, force, tangent)
             force_work = force_work + dot_product(force, dw)
             tangent_work = tangent_work - dot_product(dw, matmul(tangent, dw))
          end do

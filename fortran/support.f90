@@ -9,10 +9,14 @@ module support
    implicit none (type, external)
    private
    public :: contact_law, project, slider_law
+   public :: hold_minus, hold_none, hold_plus, hold_two_way
    public :: mode_open, mode_slip, mode_stick, side_both, side_minus, side_open, side_plus
 
    integer(ip), parameter :: side_open = 0_ip, side_minus = -1_ip, side_plus = 1_ip
    integer(ip), parameter :: side_both = 2_ip
+   !> A contact may be held closed whatever its gap: two-way by nature, or frozen on one side.
+   integer(ip), parameter :: hold_none = 0_ip, hold_two_way = 1_ip
+   integer(ip), parameter :: hold_plus = 2_ip, hold_minus = 3_ip
    integer(ip), parameter :: mode_open = 0_ip, mode_stick = 2_ip, mode_slip = 3_ip
 
 contains
@@ -32,10 +36,10 @@ contains
    end subroutine project
 
    !> Side, reaction on the pipe and tangent of one contact at the relative displacement w.
-   pure subroutine contact_law(dim, normal, gap, k, two_way, w, low, side, reaction, tangent)
+   pure subroutine contact_law(dim, normal, gap, k, hold, w, low, side, reaction, tangent)
       integer(ip), intent(in) :: dim            !! 1, or 2: radial in a plane of two normals
       real(wp), intent(in) :: normal(3, 2), gap(2), k
-      logical, intent(in) :: two_way
+      integer(ip), intent(in) :: hold
       real(wp), intent(in) :: w(3), low(3)      !! displacement relative to the base [m]
       integer(ip), intent(out) :: side
       real(wp), intent(out) :: reaction(3)
@@ -44,23 +48,23 @@ contains
       real(wp) :: d, d_low
 
       if (dim == 2_ip) then
-         call radial_law(normal, gap(1), k, two_way, w, low, side, reaction, tangent)
+         call radial_law(normal, gap(1), k, hold, w, low, side, reaction, tangent)
          return
       end if
       call project(normal(:, 1), w, low, d, d_low)
-      side = side_open
-      if (two_way) then
-         side = side_both
+      side = side_of(d, gap, hold)
+      select case (side)
+      case (side_both)
          d = d + d_low
-      else if (d - gap(2) >= 0.0_wp) then        ! an exact tie is closed and carries nothing
-         side = side_plus
+      case (side_plus)
          call add_dd(d, d_low, -gap(2), 0.0_wp)
-         d = max(0.0_wp, d + d_low)
-      else if (d + gap(1) <= 0.0_wp) then
-         side = side_minus
+         d = d + d_low
+         if (hold == hold_none) d = max(0.0_wp, d)
+      case (side_minus)
          call add_dd(d, d_low, gap(1), 0.0_wp)
-         d = min(0.0_wp, d + d_low)
-      end if
+         d = d + d_low
+         if (hold == hold_none) d = min(0.0_wp, d)
+      end select
       if (side == side_open) then
          reaction(:) = 0.0_wp
          tangent(:, :) = 0.0_wp
@@ -70,10 +74,27 @@ contains
       end if
    end subroutine contact_law
 
+   !> The side on which a contact is closed; an exact tie is closed and carries nothing.
+   pure function side_of(d, gap, hold) result(side)
+      real(wp), intent(in) :: d, gap(2)
+      integer(ip), intent(in) :: hold
+      integer(ip) :: side
+
+      if (hold == hold_two_way) then
+         side = side_both
+      else if (hold == hold_plus .or. (hold == hold_none .and. d - gap(2) >= 0.0_wp)) then
+         side = side_plus
+      else if (hold == hold_minus .or. (hold == hold_none .and. d + gap(1) <= 0.0_wp)) then
+         side = side_minus
+      else
+         side = side_open
+      end if
+   end function side_of
+
    !> A guide around a vertical pipe: the distance in its plane against a radial gap.
-   pure subroutine radial_law(normal, gap, k, two_way, w, low, side, reaction, tangent)
+   pure subroutine radial_law(normal, gap, k, hold, w, low, side, reaction, tangent)
       real(wp), intent(in) :: normal(3, 2), gap, k
-      logical, intent(in) :: two_way
+      integer(ip), intent(in) :: hold
       real(wp), intent(in) :: w(3), low(3)
       integer(ip), intent(out) :: side
       real(wp), intent(out) :: reaction(3), tangent(3, 3)
@@ -83,7 +104,7 @@ contains
       call project(normal(:, 1), w, low, a, a_low)
       call project(normal(:, 2), w, low, b, b_low)
       tangent = outer(normal(:, 1), normal(:, 1)) + outer(normal(:, 2), normal(:, 2))
-      if (two_way) then
+      if (hold == hold_two_way) then
          side = side_both
          reaction = -k*((a + a_low)*normal(:, 1) + (b + b_low)*normal(:, 2))
          tangent = k*tangent
@@ -92,7 +113,7 @@ contains
       side = side_open
       reaction(:) = 0.0_wp
       r = hypot(a, b)
-      if (.not. (r >= gap .and. r > 0.0_wp)) then
+      if (.not. ((r >= gap .or. hold /= hold_none) .and. r > 0.0_wp)) then
          tangent(:, :) = 0.0_wp
          return
       end if
@@ -104,7 +125,8 @@ contains
       call add_dd(p, e, q, f + 2.0_wp*b*b_low)
       call two_prod(r, r, q, f)
       call add_dd(p, e, -q, -f)
-      excess = max(0.0_wp, (r - gap) + (p + e)/(2.0_wp*r))
+      excess = (r - gap) + (p + e)/(2.0_wp*r)
+      if (hold == hold_none) excess = max(0.0_wp, excess)
       dir = (a*normal(:, 1) + b*normal(:, 2))/r
       reaction = -k*excess*dir
       share = excess/r

@@ -21,7 +21,7 @@ STIFFEN = 10.0  # factor of the stick stiffness from stage to stage
 LOOSE, CLOSE = 0.3, 3e-3  # out-of-balance force of a stage and of a renewal, of the capacity
 RENEWALS = 40
 COUPLED = 12  # consistent steps in a row
-AGREED = 1e-12  # change of capacities that ends the renewals, of the largest
+STICKY = 1e300  # a capacity that is never reached
 
 
 @dataclass(slots=True)
@@ -47,14 +47,17 @@ def solve_step(
     has_friction = bool((sliding.mu > 0.0).any())
     free = replace(sliding, capacity=np.zeros_like(sliding.mu), coupled=False)
     if capacity is None:
+        start = point.copy()
         outcome = without_friction(structure, point, free, forcing, history)
-        if outcome.runaway or not outcome.settled:
-            if not has_friction:
-                return Solved(False, outcome.response, free, _cause(outcome))
         if not has_friction:
-            return Solved(True, outcome.response, free)
-        capacity = sliding.mu * outcome.response.normal
-        outcome = smooth(structure, point, sliding, forcing, history, outcome, capacity)
+            cause = None if outcome.settled else _cause(outcome)
+            return Solved(outcome.settled, outcome.response, free, cause)
+        if outcome.settled:
+            capacity = sliding.mu * outcome.response.normal
+            outcome = smooth(structure, point, sliding, forcing, history, outcome, capacity)
+        else:
+            point.u[:], point.low[:] = start.u, start.low
+            outcome = all_stuck(structure, point, sliding, forcing, history)
         capacity = sliding.mu * outcome.response.normal
     fixed = replace(sliding, capacity=capacity.copy(), coupled=False)
     return renew(structure, point, fixed, forcing, history)
@@ -73,6 +76,22 @@ def without_friction(
         history=history,
         what="no friction",
         full_steps=FULL_STEPS,
+    )
+
+
+def all_stuck(
+    structure: Structure, point: Point, sliding: Sliding, forcing: Forcing, history: History
+) -> Outcome:
+    """Every support stuck: the start where the pipe moves away without friction."""
+    capacity = np.where(sliding.mu > 0.0, STICKY, 0.0)
+    return relax(
+        structure,
+        point,
+        replace(sliding, capacity=capacity, coupled=False),
+        forcing,
+        tolerance=1e-9 * force_scale(structure, forcing),
+        history=history,
+        what="all stuck",
     )
 
 

@@ -16,6 +16,9 @@ class History:
         self.system, self.ledger = system, ledger
         self.records: list[dict[str, object]] = []
         self.reversals = np.zeros(len(system.cards), np.int32)
+        self.jumps = 0  # Aitken jumps of the status iteration
+        self.frozen: list[str] = []
+        self.notes: list[str] = []  # warnings about how the case was solved
 
     def add(
         self, what: str, residual: float, step: float, before: Response, after: Response
@@ -38,3 +41,13 @@ class History:
                 "changed": [self.system.cards[i].name for i in changed[:NAMED]],
             }
         )
+
+    def freeze(self, card: int) -> None:
+        """Note that a support is held engaged from now on."""
+        name = self.system.cards[card].name
+        if name not in self.frozen:
+            self.frozen.append(name)
+            self.notes.append(
+                f"SUPPORT {name} reversed more than 5 times and is held engaged; "
+                "the certificate judges it by the true law"
+            )

@@ -85,9 +85,9 @@ def relax(
 
 def tangent_factor(structure: Structure, response: Response) -> float:
     """Factor the tangent of a response; returns the shift that a singular one needed."""
-    if structure.factorise(response.tangent, response.slider_tangent):
-        if structure.rcond > TINY_PIVOT:
-            return 0.0
+    sound = structure.factorise(response.tangent, response.slider_tangent)
+    if sound and structure.rcond > TINY_PIVOT:
+        return 0.0
     shift = PROXIMAL * structure.scale
     for _ in range(8):
         if structure.factorise(response.tangent, response.slider_tangent, shift):

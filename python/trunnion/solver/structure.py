@@ -17,7 +17,7 @@ from trunnion.solver.pattern import build_pattern
 class Forcing:
     """Loads as the kernels take them; linear, so that steps are mixtures of two.
 
-    free : (n_elem, 6) free tip deformation, global [m, rad].
+    free : (n_elem, 6) free tip deformation, element axes [m, rad].
     resultant : (n_elem, 6) of the distributed load, about end 1 [N, N m].
     nodal : (n_node, 6).
     base : (n_contact, 3), slider_base : (n_slider, 3) movement under the supports.
@@ -36,22 +36,17 @@ class Forcing:
         """Loads a fraction t of the way to `other`; exactly `other` at 1."""
         if t == 1.0:
             return other
-        parts = (
-            (1.0 - t) * getattr(self, name) + t * getattr(other, name)
-            for name in ("free", "resultant", "nodal", "base", "slider_base", "preload")
-        )
-        return Forcing(*parts, mux=other.mux)
+        return self._mixed(1.0 - t, other, t)
 
-    def scaled(self, t: float) -> "Forcing":
-        """Loads times t."""
+    def _mixed(self, a: float, other: "Forcing", b: float) -> "Forcing":
         return Forcing(
-            t * self.free,
-            t * self.resultant,
-            t * self.nodal,
-            t * self.base,
-            t * self.slider_base,
-            t * self.preload,
-            self.mux,
+            a * self.free + b * other.free,
+            a * self.resultant + b * other.resultant,
+            a * self.nodal + b * other.nodal,
+            a * self.base + b * other.base,
+            a * self.slider_base + b * other.slider_base,
+            a * self.preload + b * other.preload,
+            other.mux,
         )
 
 
@@ -117,7 +112,8 @@ class Structure:
         self._supports()
         self._linear()
         self._factor: kernels.SpdFactor | None = None
-        self._factored: tuple[F8, F8, float] | None = None
+        self.shifted = self.checked = False  # a singular tangent was met; it was looked into
+        self.held: tuple[F8, F8, float] | None = None  # tangents and shift in the factor
 
     def _elements(self) -> None:
         s = self.system
@@ -145,7 +141,9 @@ class Structure:
         p, c = self.pattern, self.contacts
         val = np.zeros(len(p.row))
         if len(self.ends):
-            kernels.assemble_elements(self.k, self.d, self.ends, p.element_rank, p.colptr, val)
+            kernels.assemble_elements(
+                self.k, self.system.axes, self.d, self.ends, p.element_rank, p.colptr, val
+            )
         closed = np.einsum("c,cai,caj->cij", c.k, c.normal, c.normal)
         kernels.add_tangents(self.at, closed, 1, p.colptr, val)
         whole = val.copy()  # with everything closed and stuck
@@ -164,6 +162,12 @@ class Structure:
         """Extent of the model [m], at least 1."""
         xyz = self.system.xyz
         return max(1.0, float(np.ptp(xyz, axis=0).max())) if len(xyz) else 1.0
+
+    @cached_property
+    def reach(self) -> float:
+        """Length of the largest element [m]; 1 where there is none."""
+        d: F8 = np.sqrt((self.d * self.d).sum(axis=1))
+        return float(d.max(initial=0.0)) or 1.0
 
     @cached_property
     def scale(self) -> float:
@@ -197,6 +201,14 @@ class Structure:
             np.ascontiguousarray(loads.preload[c.card, None] * s.up),
             loads.mux,
         )
+
+    @cached_property
+    def still(self) -> Forcing:
+        """No loads at all."""
+        n, c, m = len(self.ends), len(self.at), len(self.slider_at)
+        six = np.zeros((n, 6))
+        nodal = np.zeros((self.n_node, 6))
+        return Forcing(six, six, nodal, np.zeros((c, 3)), np.zeros((m, 3)), np.zeros((c, 3)), 1.0)
 
     # ------------------------------------------------------------------ responses
     def respond(
@@ -239,6 +251,7 @@ class Structure:
         if len(self.ends):
             end = kernels.element_end_forces(
                 self.ends,
+                self.system.axes,
                 self.d,
                 self.k,
                 forcing.free,
@@ -282,7 +295,7 @@ class Structure:
 
         Returns whether the matrix is positive definite.
         """
-        held = self._factored
+        held = self.held
         if held is not None and (
             held[2] == shift
             and np.array_equal(held[0], tangent)
@@ -296,14 +309,15 @@ class Structure:
             val = val.copy()
             kernels.add_tangents(self.at, tangent, 0, self.pattern.colptr, val)
             kernels.add_tangents(self.slider_at, slider_tangent, 0, self.pattern.colptr, val)
-        self._factored = None
+        self.held = None
+        self.shifted |= shift > 0.0
         try:
             self.rcond = self._factor.factorise(val, shift)
         except NotPositiveDefiniteError:
             return False
         finally:
             self.ledger.follow(self, self._factor.work)
-        self._factored = (tangent, slider_tangent, shift)
+        self.held = (tangent, slider_tangent, shift)
         return True
 
     def solve(self, r: F8) -> F8:
@@ -317,7 +331,11 @@ class Structure:
     def changing_product(self, response: Response, p: F8, r: F8) -> None:
         """Subtract from r the share of K p that comes from contacts which may change."""
         kernels.contact_product(self.at, response.tangent, p, r)
-        kernels.contact_product(self.slider_at, response.slider_tangent, p, r)
+        self.sliders_product(response.slider_tangent, p, r)
+
+    def sliders_product(self, slider_tangent: F8, p: F8, r: F8) -> None:
+        """Subtract from r the share of K p that comes from sliders."""
+        kernels.contact_product(self.slider_at, slider_tangent, p, r)
 
     def coupling(self, response: Response, sliding: Sliding, p: F8) -> tuple[F8, F8]:
         """Change of sliding friction forces through their normal forces for a change p.
@@ -339,3 +357,18 @@ class Structure:
             r,
         )
         return r, change
+
+    def scatter(self, force: F8, r: F8) -> None:
+        """Add contact forces (n_contact, 3) to the nodes' r, and their opposites at cnodes."""
+        columns = self.at[:, 3:4] + np.arange(3)
+        np.add.at(r, (self.at[:, 0:1], columns), force)
+        paired = self.at[:, 1] >= 0
+        np.subtract.at(r, (self.at[paired, 1:2], columns[paired]), force[paired])
+
+    def gather(self, p: F8) -> F8:
+        """Relative displacements (n_contact, 3) of the contacts for displacements p."""
+        columns = self.at[:, 3:4] + np.arange(3)
+        w: F8 = p[self.at[:, 0:1], columns]
+        paired = self.at[:, 1] >= 0
+        w[paired] -= p[self.at[paired, 1:2], columns[paired]]
+        return w

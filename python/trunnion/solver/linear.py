@@ -1,0 +1,26 @@
+"""Cases of a structure whose contacts cannot change: one factor, all right-hand sides at once."""
+
+import numpy as np
+
+from trunnion.solver.friction import Solved
+from trunnion.solver.newton import tangent_factor
+from trunnion.solver.structure import Forcing, Point, Sliding, Structure
+
+
+def solve_linear(structure: Structure, forcings: list[Forcing]) -> list[tuple[Point, Solved]]:
+    """Solve every case in one call of the solver; an answer each."""
+    n = len(structure.sliders.mu)
+    law = Sliding(np.zeros(n), structure.sliders.kf, np.zeros(n), np.zeros((n, 3)))
+    points = [Point.zero(structure.n_node) for _ in forcings]
+    starts = [
+        structure.residual(point, law, forcing)
+        for point, forcing in zip(points, forcings, strict=True)
+    ]
+    response = starts[0][2]
+    tangent_factor(structure, response)
+    moves = structure.solve(np.stack([r for r, _, _ in starts]))
+    for point, move in zip(points, moves, strict=True):
+        point.move(np.ascontiguousarray(move))
+    return [
+        (point, Solved(True, start[2], law)) for point, start in zip(points, starts, strict=True)
+    ]
