@@ -22,7 +22,7 @@ from typing import Any
 import numpy as np
 
 import trunnion
-from trunnion.arrays import CaseResult
+from trunnion.arrays import CaseResult, Results
 from trunnion.model import (
     Case,
     Direction,
@@ -113,9 +113,9 @@ def _case(name: str) -> Case:
     return Case(name.upper(), (Term(1.0, "W"), Term(1.0, "T1")), steps=steps)
 
 
-def solve_rack(rack: Rack, case: str) -> CaseResult:
+def solve_rack(rack: Rack, case: str) -> Results:
     """Solve one case of a rack."""
-    return trunnion.solve(rack_model(rack, case))[case.upper()]
+    return trunnion.solve(rack_model(rack, case))
 
 
 def support_forces(result: CaseResult, rack: Rack) -> tuple[np.ndarray, np.ndarray]:
@@ -137,11 +137,12 @@ def answer(rack: Rack, case: str) -> Rack:
     """Solve a case and describe the answer in plain data."""
     model = rack_model(rack, case)
     start = time.perf_counter()
-    result = trunnion.solve(model)[case.upper()]
+    results = trunnion.solve(model)
     seconds = time.perf_counter() - start
+    result = results[case.upper()]
     out: Rack = {"model": rack["name"], "case": case, "converged": result.converged}
     if result.state is None:
-        return {**out, "cause": result.cause, "work": result.work, "seconds": seconds}
+        return {**out, "cause": result.cause, "work": results.work, "seconds": seconds}
     normal, friction = support_forces(result, rack)
     certificate = result.certificate
     order = [result.system.labels.index(str(i)) for i in range(len(rack["nodes"]))]
@@ -159,7 +160,7 @@ def answer(rack: Rack, case: str) -> Rack:
             "where": certificate.where,
             **{item.name: item.value for item in certificate.items},
         },
-        "work": result.work,
+        "work": results.work,
         "seconds": seconds,
         "peak_mb": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0,
     }

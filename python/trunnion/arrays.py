@@ -243,7 +243,7 @@ class CaseResult:
     warnings: tuple[str, ...] = ()
     history: list[dict[str, object]] = field(default_factory=list)
     work: dict[str, int] = field(default_factory=dict)
-    linear: bool = True  # False: a combination with ABS, which has no interior points
+    linear: bool = True  # False: a combination with ABS or of two moduli: no interior points
 
     @property
     def displacements(self) -> "Table":

@@ -83,7 +83,8 @@ def combine(comb: Comb, results: Mapping[str, CaseResult]) -> CaseResult:
     cases = [results[name] for name in parents(comb.expression)]
     system = cases[0].system
     answer = CaseResult(comb.name, "comb", comb.text, system, None, None, converged=False)
-    answer.linear = is_linear(comb.expression) and all(case.linear for case in cases)
+    same = all(case.linear and case.system is system for case in cases)  # a hot one has its own E
+    answer.linear = same and is_linear(comb.expression)
     without = [case.name for case in cases if case.state is None]
     if without:
         answer.cause = f"no numbers in {', '.join(without)}"

@@ -114,9 +114,10 @@ def slider_errors(system: System, loads: Loads, state: State, scale: Scale) -> d
     kept = np.where(sticks, datum, now + friction / s.kf)
     moved = _size(slide - (now - datum)) / slip
     left = _size(state.datum_end.T - kept) / slip
-    legal = sticks | slips | (mode == OPEN) | ((mode == ENGAGED) & (capacity <= NOTHING * load))
-    carries = capacity > NOTHING * load  # a closed slider without capacity may say anything
-    legal &= np.where(shut, (mode != OPEN) | ~carries, mode == OPEN)
+    # open without contact, engaged without friction; with a trace of pressure open as well
+    legal = np.where(s.mu * loads.mux == 0.0, mode == ENGAGED, sticks | slips)
+    legal |= (normal <= NOTHING * load) & (mode == OPEN)
+    legal = np.where(shut, legal, mode == OPEN)
     return {
         "friction": coulomb,
         "direction": sine,

@@ -1,5 +1,7 @@
 """Combinations of results, component by component."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 
@@ -126,6 +128,14 @@ def test_combination_of_combinations(system):
     assert np.allclose(back.state.u, results["OPE"].state.u, rtol=1e-15)
     results["MAG"] = combine(Comb("MAG", ("abs", OPE), ""), results)
     assert not combine(Comb("B", ("+", ("case", "MAG"), SUS), ""), results).linear
+
+
+def test_cases_of_other_moduli_have_no_common_interior(system):
+    hot = dataclasses.replace(system, rigidity=0.9 * system.rigidity)
+    results = {"OPE": case(hot, "OPE", 1), "SUS": case(system, "SUS", 2)}
+    comb = combine(Comb("C", ("-", OPE, SUS), ""), results)
+    assert not comb.linear
+    assert comb.converged
 
 
 def test_parents_are_named_once():

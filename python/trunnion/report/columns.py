@@ -34,8 +34,12 @@ class Column:
 
 def words(head: str, cells: Words, *, least: int = 6, most: int = 64) -> Column:
     """Set words flush left, as wide as the longest, with a space after them."""
-    width = min(max(max((len(c or "") for c in cells), default=0), len(head), least), most) + 1
-    return Column(head, "", f"%-{width}s", width, [_cut(c or "", width - 1) for c in cells], True)
+    known: Sequence[str] = [cell or "" for cell in cells]
+    longest = max(map(len, known), default=0)
+    width = min(max(longest, len(head), least), most) + 1
+    if longest >= width:
+        known = [_cut(cell, width - 1) for cell in known]
+    return Column(head, "", f"%-{width}s", width, known, left=True)
 
 
 def _cut(text: str, width: int) -> str:

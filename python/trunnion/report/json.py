@@ -1,7 +1,7 @@
 """The JSON report: SI, support forces on the pipe, element forces on the element.
 
-Every number is written with all its digits, one node, support or element a line; the same
-results give the same bytes.
+Every number is written with all its digits (stresses with 9), one node, support or element a
+line; the same results give the same bytes.
 """
 
 from collections.abc import Mapping
@@ -11,7 +11,7 @@ import numpy as np
 from trunnion.arrays import F8, CaseResult, Certificate, Results, System
 from trunnion.balance import load_sum, local_forces, reaction_sum
 from trunnion.interior import mid_of_bend
-from trunnion.report.encode import dump, finite, lines, listing, records, rows, words
+from trunnion.report.encode import dump, finite, lines, listing, records, rows, short, words
 from trunnion.report.json_supports import support_entries
 from trunnion.stresses import end_stresses
 from trunnion.supports import cause_of, is_good, solved
@@ -113,7 +113,7 @@ def _stresses(case: CaseResult) -> str:
     ids = element_ids(case.system.parts)
     fields = {"id": words(ids[i] for i in element.tolist())}
     for name in STRESSES:
-        fields[name] = rows(np.column_stack([getattr(end, name) for end in ends]))
+        fields[name] = short(np.column_stack([getattr(end, name) for end in ends]))
     return listing(records(fields))
 
 

@@ -2,8 +2,9 @@
 
 A card's force is its normal forces and its friction; `normal` is the size of the first.  A
 contact's `side` is -1 or 1 where it is closed on one side, else 0; its `reaction` counts along
-`dir`, and `vector` is that force (moment of a rotation) on the pipe.  `sliders` holds what the
-friction law needs to be judged again from the file.
+`dir`, and `vector` is that force (moment of a rotation) on the pipe.  `sliders` holds what else
+the friction law needs to be judged again from the file: which contacts a slider rubs on (its
+normal force, friction and slide stand at the first of them) and its datum.
 """
 
 from collections.abc import Sequence
@@ -95,7 +96,6 @@ def _sliders(case: CaseResult) -> list[str]:
     sliders, state = case.system.sliders, solved(case)
     if case.kind == "comb":
         return []
-    mux = case.loads.mux if case.loads is not None else 1.0
     local = _rank(case.system.contacts.card)
     return records(
         {
@@ -104,11 +104,7 @@ def _sliders(case: CaseResult) -> list[str]:
                 for a, b in zip(sliders.first[:-1], sliders.first[1:], strict=True)
             ],
             "state": words(STATES[i] for i in state.mode.tolist()),
-            "mu": numbers(sliders.mu * mux),
             "kf": numbers(sliders.kf),
-            "normal": numbers(state.normal),
-            "friction": rows(state.friction),
-            "slide": rows(state.slide),
             "datum": rows(state.datum),
             "datum_end": rows(state.datum_end),
         }
