@@ -240,8 +240,9 @@ def _six(kind: str, values: Sequence[Sequence[float]], units: ReportUnits) -> li
 def _cases(model: Model) -> str:
     """Write every case as its card does."""
     text = section("LOAD CASES")
-    for i, case in enumerate(model.cases, 1):
-        text += f"  L{i:<4}{case.name:<16} {case_words(model, case.name)}\n"
+    width = max((len(case.name) for case in model.cases), default=0) + 2
+    for case in model.cases:
+        text += f"  {case.name:<{width}}{case_words(model, case.name)}\n"
     return text
 
 
