@@ -6,6 +6,8 @@ the largest force and re-checked in rational arithmetic by a third one.  Displac
 1e-9 m; a state may differ only within 1e-6 of its threshold, and then it is listed here.
 """
 
+import json
+import subprocess
 import sys
 from functools import cache
 from pathlib import Path
@@ -140,6 +142,24 @@ def test_deck_is_what_its_script_writes(n, capsys):
 
     rack_deck.main(ROOT / f"tests/data/rack_{n}.json.gz")
     assert capsys.readouterr().out == (ROOT / f"models/rack_{n}.inp").read_text()
+
+
+def test_benchmark_writes_what_it_promises(tmp_path):
+    out = tmp_path / "out.json"
+    command = [sys.executable, ROOT / "benchmarks/rack.py", ROOT / "tests/data/rack_50.json.gz"]
+    done = subprocess.run([*command, "fric1", "-o", out], capture_output=True, check=False)
+    assert done.returncode == 0, done.stderr
+    data = json.loads(out.read_text())
+    u = np.array(data["displacements"])
+    assert np.abs(u - reference(50)["fric1_u"])[:, :3].max() < 1e-9
+    normal = np.array([s["normal"] for s in data["supports"]])
+    assert np.abs(normal - reference(50)["fric1_normal"]).max() < 1e-3
+    assert [s["id"] for s in data["supports"]] == [s["id"] for s in rack(50)["supports"]]
+    assert all(len(s["friction"]) == 3 for s in data["supports"])
+    assert data["certificate"]["passed"]
+    assert data["work"]["factorise"] > 0
+    assert data["seconds"] > 0
+    assert data["peak_mb"] > 0
 
 
 def test_rack_model_counts():

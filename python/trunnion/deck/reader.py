@@ -19,6 +19,7 @@ from trunnion.errors import DeckError, Problem
 from trunnion.model import Model, Place, Units
 
 _FIRST = ("TITLE", "UNITS", "DEFAULT")
+_LONGEST = 400  # characters of a message; a word of a deck may be very long
 
 
 def read(path: str | os.PathLike[str]) -> Model:
@@ -185,7 +186,7 @@ def _problems(deck: Deck, faults: list[Fault]) -> list[Problem]:
             place = Place(deck.file, max(1, deck.last - 1))
         card = cards.get(key)
         marker = show(card, fault.mark) if card and len(found) < 1000 else ""
-        text = f"{fault.head}: {fault.message}" if fault.head else fault.message
+        text = fault.text if len(fault.text) <= _LONGEST else f"{fault.text[:_LONGEST]} ..."
         found.append((order.get(key, len(order)), Problem(place, text, marker)))
     found.sort(key=lambda pair: pair[0])
     return list(dict.fromkeys(problem for _, problem in found))
