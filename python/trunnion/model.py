@@ -182,7 +182,8 @@ class Support:
     """One ANCHOR, SUPPORT, HANGER or one-node SPRING card.
 
     `kind` is "anchor", "support", "hanger", "spring" or "snubber".  An anchor holds its six
-    freedoms with `k` and `kr`; a hanger is vertical with rate `k` and cold load `load`; a spring has `ks`.
+    freedoms with `k` and `kr`; a hanger is vertical with rate `k` and cold load `load`; a spring
+    has `ks`; a snubber is free in static cases and holds its directions with `k` when locked.
     """
 
     node: str
