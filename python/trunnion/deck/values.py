@@ -169,9 +169,18 @@ def reader_of(key: Key, scales: dict[str, Scale], dimension: str = "") -> Reader
 
 def _number_reader(key: Key, scale: Scale, dimension: str) -> Reader:
     """Build the reader of a number; the common case, without suffix and bounds, is short."""
+    if dimension == "temperature":
+        return lambda value: _possible(number(value, scale, dimension), value)
     if key.bounds is ANY:
         return lambda value: number(value, scale, dimension)
     return lambda value: _within(number(value, scale, dimension), value, key)
+
+
+def _possible(celsius: float, value: object) -> float:
+    """Refuse temperatures that do not exist."""
+    if celsius < -273.15:
+        raise WordError(f"{value} is below absolute zero")
+    return celsius
 
 
 def _within(found: float, value: object, key: Key) -> Any:
