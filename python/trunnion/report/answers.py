@@ -23,6 +23,8 @@ def displacement_table(case: CaseResult, units: ReportUnits) -> str:
 def element_tables(case: CaseResult, units: ReportUnits) -> str:
     """Print the end forces on every element, global and in the axes of its ends."""
     force = solved(case).end_force
+    if not len(force):
+        return ""
     local = local_forces(case.system, force)
     name = case.name
     text = section(f"{name}: ELEMENT FORCES", "ON THE ELEMENT at its ends, global")

@@ -149,6 +149,8 @@ def _elements(system: System, units: ReportUnits) -> str:
 def _bends(system: System, units: ReportUnits) -> str:
     """Flexibility characteristic h = t R / r2 with the mean radius r of the pipe."""
     at = np.flatnonzero(system.kind == ARC)
+    if not at.size:
+        return ""
     radius, wall = system.radius[at], system.wall[at]
     mean = 0.5 * (system.od[at] - wall)
     parts = [system.parts[i] for i in at.tolist()]

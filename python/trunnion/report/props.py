@@ -14,7 +14,9 @@ from trunnion.report.units import Quantity, ReportUnits
 def support_echo(model: Model, system: System, units: ReportUnits) -> str:
     """Print every support card."""
     kinds = {kind: [s for s in model.supports if s.kind == kind] for kind in ("anchor", "spring")}
-    text = section("ANCHORS", "- K: rigid") + _anchors(kinds["anchor"], units)
+    text = ""
+    if kinds["anchor"]:
+        text += section("ANCHORS", "- K: rigid") + _anchors(kinds["anchor"], units)
     text += section(
         "SUPPORTS", "n along the word, round a vertical pipe (GUIDE) along the pipe; - K: rigid"
     )
