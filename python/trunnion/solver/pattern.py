@@ -15,8 +15,8 @@ class Pattern:
 
     colptr : (6 n_node + 1,) first entry of each column.
     row : (nnz,) row of each entry, ascending in a column.
-    element_rank, contact_rank, slider_rank : place of the higher node among the neighbours of
-        the lower one, for items that join two nodes; 0 for items on ground.
+    element_rank, contact_rank, slider_rank, snubber_rank : place of the higher node among the
+        neighbours of the lower one, for items that join two nodes; 0 for items on ground.
     """
 
     colptr: I4
@@ -24,6 +24,7 @@ class Pattern:
     element_rank: I4
     contact_rank: I4
     slider_rank: I4
+    snubber_rank: I4
 
     @property
     def diagonal(self) -> I4:
@@ -31,12 +32,15 @@ class Pattern:
         return self.colptr[:-1]
 
 
-def build_pattern(n: int, ends: I4, contacts: Contacts, sliders: Sliders) -> Pattern:
-    """Pattern of all elements, contacts and sliders, open or closed."""
+def build_pattern(
+    n: int, ends: I4, contacts: Contacts, sliders: Sliders, snubbers: Contacts
+) -> Pattern:
+    """Pattern of all elements, contacts, sliders and snubbers, open or closed."""
     groups = (
         ends,
         np.column_stack((contacts.node, contacts.cnode)),
         np.column_stack((sliders.node, sliders.cnode)),
+        np.column_stack((snubbers.node, snubbers.cnode)),
     )
     pairs = np.concatenate(groups).astype(np.int64)
     low, high = pairs.min(axis=1), pairs.max(axis=1)
