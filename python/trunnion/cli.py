@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, NoReturn
 import click
 
 if TYPE_CHECKING:
-    from trunnion.arrays import Results
+    from trunnion.arrays import Results, System
     from trunnion.model import Model
 
 SOLVED, FAILED, BAD_INPUT, INTERNAL, INTERRUPTED, TERMINATED = 0, 1, 2, 3, 130, 143
@@ -69,11 +69,18 @@ def run(deck: Path, folder: Path, h5: bool, timings: bool) -> int:
 @cli.command()
 @DECK
 def check(deck: Path) -> int:
-    """Read DECK and number its structure; solve and write nothing."""
+    """Read DECK, look for mechanisms and missing loads; solve and write nothing."""
+    from trunnion.loads import case_loads, load_sets
+    from trunnion.model import Case
     from trunnion.system import build_system
 
     model = _read(deck)
     system = build_system(model)
+    sets = load_sets(model, system)
+    for case in model.cases:
+        if isinstance(case, Case):
+            case_loads(model, system, case, sets)
+    _refuse_mechanisms(system)
     counts = (
         (len(system.labels), "nodes"),
         (len(system.parts), "elements"),
@@ -95,6 +102,18 @@ def _solve(model: "Model") -> "Results":
 
     results: Results = trunnion.solve(model)
     return results
+
+
+def _refuse_mechanisms(system: "System") -> None:
+    """Refuse a structure that moves freely even with every contact closed."""
+    from trunnion.errors import ModelError, Problem
+    from trunnion.solver.ledger import Ledger
+    from trunnion.solver.mechanism import structural_motions
+    from trunnion.solver.structure import Structure
+
+    motions = structural_motions(Structure(system, Ledger()))
+    if motions:
+        raise ModelError([Problem("structure", motion.text) for motion in motions])
 
 
 def _check_places(deck: Path, folder: Path, h5: bool) -> None:

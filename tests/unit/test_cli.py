@@ -110,6 +110,14 @@ def test_check_refuses_what_run_refuses(home, capsys):
     assert "b.inp:2: " in capsys.readouterr().err
 
 
+def test_check_names_what_moves(home, capsys):
+    loose = (home / "a.inp").read_text().replace("ANCHOR   10", "SUPPORT 10 X Y Z RX")
+    loose = loose.replace("+Y GUIDE GAP=50", "Y").replace("MU=0.3", "MU=0")
+    (home / "b.inp").write_text(loose)
+    assert trunnion_exit("check", "b.inp") == 2
+    assert "line 10-30 turns about Y" in capsys.readouterr().err
+
+
 def test_internal_error_exits_3_with_a_log_and_no_traceback(home, monkeypatch, capsys):
     def breaks(model):
         raise ZeroDivisionError("a number was zero")

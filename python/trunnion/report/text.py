@@ -31,7 +31,8 @@ def text_report(results: Results, model: Model) -> bytes:
     parts += [wrapped(f"{c.name}: {cause_of(c)}") for c in results.cases.values() if not is_good(c)]
     parts.append(warnings(results))
     parts.append(chapter("2  INPUT"))
-    parts.append(input_echo(model, _system(results), units))
+    texts = {name: case.text for name, case in results.cases.items()}
+    parts.append(input_echo(model, _system(results), texts, units))
     parts.append(chapter("3  LOADS ON RESTRAINTS"))
     parts.append(restraint_summary(good, units))
     parts.append(chapter("4  RESULTS BY CASE"))
