@@ -42,7 +42,7 @@ def text_report(results: Results, model: Model) -> bytes:
     work = {name: case.work for name, case in results.cases.items()}
     parts.append(ledger_table(work | {"whole run": results.work}))
     parts.append(f"\n{'END OF REPORT':^{PAGE}}".rstrip() + "\n")
-    return "".join(parts).encode()
+    return "".join(parts).encode(errors="replace")
 
 
 def _system(results: Results) -> System:
