@@ -56,13 +56,11 @@ def run(deck: Path, folder: Path, h5: bool, timings: bool) -> int:
     files = write_reports(results, model, folder, deck.stem, h5=h5)
     written = perf_counter()
     good, text = screen(results, model)
-    click.echo(text)
-    click.echo("wrote " + "  ".join(str(file) for file in files))
+    _say(text)
+    _say("wrote " + "  ".join(str(file) for file in files))
     if timings:
-        click.echo(
-            f"read {read - start:.3f} s, solve {solved - read:.3f} s, "
-            f"write {written - solved:.3f} s"
-        )
+        parts = {"read": read - start, "solve": solved - read, "write": written - solved}
+        _say(", ".join(f"{name} {seconds:.3f} s" for name, seconds in parts.items()))
     return SOLVED if good else FAILED
 
 
@@ -87,8 +85,16 @@ def check(deck: Path) -> int:
         (len(system.cards), "supports"),
         (len(model.cases), "cases"),
     )
-    click.echo(f"{deck.name}: no errors; " + ", ".join(f"{n} {what}" for n, what in counts))
+    _say(f"{deck.name}: no errors; " + ", ".join(f"{n} {what}" for n, what in counts))
     return SOLVED
+
+
+def _say(text: str) -> None:
+    """Print on stdout; a reader that has gone away (| head) changes nothing."""
+    try:
+        click.echo(text)
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _read(deck: Path) -> "Model":
@@ -146,7 +152,6 @@ def _guarded(arguments: Sequence[str] | None) -> int:
 
     try:
         code = cli.main(arguments, prog_name="trunnion", standalone_mode=False)
-        sys.stdout.flush()
         return int(code or 0)
     except click.ClickException as error:
         error.show()
@@ -157,9 +162,6 @@ def _guarded(arguments: Sequence[str] | None) -> int:
     except (click.Abort, KeyboardInterrupt):
         click.echo("interrupted, nothing was written", err=True)
         return INTERRUPTED
-    except BrokenPipeError:  # the reader of our summary has gone; the files are whole
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return SOLVED
     except OSError as error:
         name = f"{error.filename}: " if error.filename else ""
         click.echo(f"{name}{error.strerror or error}", err=True)
