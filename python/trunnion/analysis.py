@@ -3,6 +3,8 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from trunnion.arrays import F8, CaseResult, Loads, Results, System
 from trunnion.casetext import case_text, in_order
 from trunnion.combine import combine
@@ -108,7 +110,7 @@ class Run:
             steps=case.steps,
             events=settings.events if case.events is None else case.events,
             iteration=case.iteration or settings.iteration,
-            capacity=None if start is None else start.capacity,
+            capacity=None if start is None else np.array(start.capacity, np.float64),
         )
         return Question(
             case.name,

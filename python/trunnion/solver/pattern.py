@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from trunnion.arrays import I4, Contacts, Sliders
 
@@ -46,7 +47,7 @@ def build_pattern(
     low, high = pairs.min(axis=1), pairs.max(axis=1)
     joined = low >= 0  # ground is -1
     key = low * n + high
-    unique, inverse = np.unique(key[joined], return_inverse=True)
+    unique, inverse = _unique(key[joined])
     neighbours = np.bincount(unique // n, minlength=n)
     begin = np.concatenate(([0], np.cumsum(neighbours)))
     rank = np.zeros(len(pairs), np.int32)
@@ -54,6 +55,17 @@ def build_pattern(
     colptr, row = _columns(n, neighbours, begin, unique % n)
     cut = np.cumsum([len(g) for g in groups])[:-1]
     return Pattern(colptr, row, *np.split(rank, cut))
+
+
+def _unique(key: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Sorted keys, each once, and where each key went (np.unique would import numpy.ma)."""
+    order = np.argsort(key, kind="stable")
+    ordered = key[order]
+    first = np.ones(len(key), np.bool_)
+    first[1:] = ordered[1:] != ordered[:-1]
+    inverse = np.empty(len(key), np.int64)
+    inverse[order] = np.cumsum(first) - 1
+    return ordered[first], inverse
 
 
 def _columns(
