@@ -198,6 +198,8 @@ def numbers(result: CaseResult, q: np.ndarray | None = None, shift: object = 0.0
     forces = back(card_forces(result))
     pressed = state.normal > 1e-9 * state.normal.max(initial=0.0)  # a trace has no mode
     mode = np.where(pressed, state.mode, OPEN)
+    push = np.abs(state.reaction).max(axis=1, initial=0.0)
+    closed = (state.side != OPEN) & (push > 1e-9 * push.max(initial=0.0))
     keys, states = [], []
     for i, card in enumerate(system.cards):
         node = system.alias.get(card.label)
@@ -207,7 +209,7 @@ def numbers(result: CaseResult, q: np.ndarray | None = None, shift: object = 0.0
         keys.append([*xyz[node], kind, mine.sum()])
         states.append(
             (
-                int((state.side[mine] != OPEN).sum()),
+                int(closed[mine].sum()),
                 *sorted(mode[system.sliders.card == i].tolist()),
             )
         )

@@ -146,8 +146,8 @@ def renew(
     structure: Structure, point: Point, sliding: Sliding, forcing: Forcing, history: History
 ) -> Solved:
     """Renew the capacities from the normal forces until they agree, then couple them."""
-    change = best = np.inf
-    stalled = 0
+    change, best, stalled = np.inf, np.inf, 0
+    error = np.zeros_like(sliding.capacity)
     for i in range(RENEWALS):
         size = max(1e-3, float(sliding.capacity.max(initial=0.0)))
         outcome = relax(
@@ -162,8 +162,10 @@ def renew(
         if not outcome.settled:
             return Solved(False, outcome.response, sliding, _cause(outcome), i)
         new = sliding.mu * outcome.response.normal
-        change = float(np.abs(new - sliding.capacity).max(initial=0.0))
-        stalled = 0 if change < PROGRESS * best else stalled + 1
+        last, error = error, new - sliding.capacity
+        change = float(np.abs(error).max(initial=0.0))
+        grows = change > best and float(np.vdot(error, last)) > 0.0  # as a self-locking one does
+        stalled = 0 if change < PROGRESS * best or grows else stalled + 1
         best = min(best, change)
         if stalled >= STALLED:
             break
