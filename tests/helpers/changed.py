@@ -199,7 +199,8 @@ def numbers(result: CaseResult, q: np.ndarray | None = None, shift: object = 0.0
     pressed = state.normal > 1e-9 * state.normal.max(initial=0.0)  # a trace has no mode
     mode = np.where(pressed, state.mode, OPEN)
     push = np.abs(state.reaction).max(axis=1, initial=0.0)
-    closed = (state.side != OPEN) & (push > 1e-9 * push.max(initial=0.0))
+    closed = (state.side != OPEN) & ~system.contacts.two_way
+    closed &= push > 1e-9 * push.max(initial=0.0)
     keys, states = [], []
     for i, card in enumerate(system.cards):
         node = system.alias.get(card.label)
