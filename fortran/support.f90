@@ -64,14 +64,12 @@ contains
          call add_dd(d, d_low, gap(1), 0.0_wp)
          d = d + d_low
          if (hold == hold_none) d = min(0.0_wp, d)
+      case default                               ! open
+         d = 0.0_wp
       end select
-      if (side == side_open) then
-         reaction(:) = 0.0_wp
-         tangent(:, :) = 0.0_wp
-      else
-         reaction = -k*d*normal(:, 1)
-         tangent = k*outer(normal(:, 1), normal(:, 1))
-      end if
+      reaction = -k*d*normal(:, 1)
+      tangent(:, :) = 0.0_wp
+      if (side /= side_open) tangent = k*outer(normal(:, 1), normal(:, 1))
    end subroutine contact_law
 
    !> The side on which a contact is closed; an exact tie is closed and carries nothing.

@@ -181,8 +181,9 @@ class Direction:
 class Support:
     """One ANCHOR, SUPPORT, HANGER or one-node SPRING card.
 
-    `kind` is "anchor", "support", "hanger" or "spring".  An anchor holds its six freedoms with
-    `k` and `kr`; a hanger is vertical with rate `k` and cold load `load`; a spring has `ks`.
+    `kind` is "anchor", "support", "hanger", "spring" or "snubber".  An anchor holds its six
+    freedoms with `k` and `kr`; a hanger is vertical with rate `k` and cold load `load`; a spring
+    has `ks`; a snubber is free in static cases and holds its directions with `k` when locked.
     """
 
     node: str
@@ -252,12 +253,17 @@ class Case:
     hot: bool = False  # E=HOT
     events: bool | None = None
     iteration: str | None = None
-    snubbers: str | None = None
+    snubbers: str | None = None  # SNUBBERS=FREE or LOCKED
     place: Place = field(default=Place(), compare=False)
+    about: str | None = None  # ABOUT=: linear increment on that case's frozen state
+    on: str | None = None  # ON=: linear total on that case's frozen state, snubbers free
+    nonlinear: bool = False  # with ABOUT: solve both together nonlinearly and subtract
+    spectrum: "SpectrumUse | None" = None  # a response spectrum case (SPECTRA= on the card)
 
 
 # An expression of case names: ("case", name) ("num", x) ("+", a, b) ("-", a, b) ("*", n, a)
-# ("neg", a) ("abs", a)
+# ("neg", a) ("abs", a) and, of any number of operands, ("srss", a, ...) ("max", a, ...)
+# ("min", a, ...) ("signmax", a, ...) ("scalar", a, ...)
 Expression = tuple[object, ...]
 
 
@@ -268,6 +274,107 @@ class Comb:
     name: str
     expression: Expression
     text: str
+    place: Place = field(default=Place(), compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Cycle:
+    """CYCLE: follow cases one after another, datums committed, until the loop repeats."""
+
+    name: str
+    cases: tuple[str, ...]
+    times: int
+    start: str | None = None  # FROM=
+    place: Place = field(default=Place(), compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Modes:
+    """MODES: natural frequencies about the frozen contact state of a case."""
+
+    n: int
+    fmax: float | None = None  # [Hz]
+    about: str | None = None  # None: nothing is closed but what rests at zero gap
+    mass: str = "LUMPED"  # or CONSISTENT
+    mesh: str = "AUTO"  # or NONE
+    rotary: bool = True
+    friction: float = 0.0  # lateral stiffness of pressing supports: factor times mu N [1/m]
+    place: Place = field(default=Place(), compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Spectrum:
+    """SPECTRUM: accelerations [m/s2] against frequency [Hz], ascending."""
+
+    name: str
+    frequency: tuple[float, ...]
+    acceleration: tuple[float, ...]
+    log: bool = True  # interpolation: log-log, else linear in frequency
+    by_period: bool = False  # linear interpolation runs in period
+    place: Place = field(default=Place(), compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Shock:
+    """One direction of a response spectrum case: spectrum, global direction, factor, group.
+
+    `nodes` is empty for uniform motion, else the labels of the supports of one group.
+    """
+
+    spectrum: str
+    direction: str  # X Y Z
+    factor: float = 1.0
+    group: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class SpectrumUse:
+    """How a response spectrum case combines: modes, directions, groups, missing mass."""
+
+    shocks: tuple[Shock, ...]
+    modal: str = "SRSS"  # SRSS GROUP CQC ABS DSUM
+    spatial: str = "SRSS"  # or ABS
+    groups: str = "ABS"  # or SRSS: independent support motion
+    damping: float = 0.02
+    duration: float = 10.0  # of the strong motion, for the double sum [s]
+    missing_mass: bool = False
+    zpa: float | None = None  # [m/s2]; None: the spectrum at its highest frequency
+
+
+@dataclass(frozen=True, slots=True)
+class Group:
+    """GROUP: supports that move together in independent support motion."""
+
+    name: str
+    nodes: tuple[str, ...]
+    place: Place = field(default=Place(), compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Wind:
+    """WIND set: pressure [Pa] against elevation [m], or ASCE 7, with attack direction.
+
+    `table` holds (elevation, pressure) from velocities or pressures; empty for ASCE 7.
+    """
+
+    set: str
+    direction: tuple[float, float, float]
+    table: tuple[tuple[float, float], ...] = ()
+    speed: float | None = None  # ASCE 7 basic wind speed [m/s]
+    exposure: str = "C"
+    kzt: float = 1.0
+    kd: float = 0.95
+    gust: float = 0.85
+    shape: float = 0.7  # force coefficient of the pipe
+    ground: float = 0.0  # elevation of the ground [m]
+    place: Place = field(default=Place(), compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Snow:
+    """SNOW: uniform vertical load of snow or ice on all pipes [N/m], set S."""
+
+    weight: float
     place: Place = field(default=Place(), compare=False)
 
 
@@ -299,7 +406,13 @@ class Model:
     displacements: list[Displacement] = field(default_factory=list)
     forces: list[Force] = field(default_factory=list)
     accelerations: list[Acceleration] = field(default_factory=list)
+    winds: list[Wind] = field(default_factory=list)
+    snows: list[Snow] = field(default_factory=list)
+    spectra: dict[str, Spectrum] = field(default_factory=dict)
+    groups: list[Group] = field(default_factory=list)
+    modal: Modes | None = None  # what the MODES card asks for
     cases: list[Case | Comb] = field(default_factory=list)
+    cycles: list[Cycle] = field(default_factory=list)
     # what cards leave behind for the cards that follow (deck.interpreter.Carried)
     carried: Any = field(default=None, compare=False, repr=False)
 

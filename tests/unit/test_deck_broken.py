@@ -36,6 +36,22 @@ def test_broken_deck_is_refused_with_line_and_cause(path, monkeypatch):
     assert str(caught.value).splitlines()[-1] == f"{count}, nothing was solved"
 
 
+@pytest.mark.parametrize("path", DECKS, ids=lambda path: path.stem)
+def test_command_answers_exit_2_and_writes_nothing(path, monkeypatch, capsys, tmp_path):
+    from trunnion import cli
+
+    monkeypatch.chdir(BROKEN)
+    monkeypatch.setattr(cli.signal, "signal", lambda *_: None)
+    with pytest.raises(SystemExit) as end:
+        cli.main(["run", path.name, "-o", str(tmp_path)])
+    assert end.value.code == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert "Traceback" not in err
+    assert all(f":{line}: " in err for line, _ in expected(path))
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_marker_lines_are_those_of_the_house():
     text = (
         "SECTION S OD=1 WALL=0.1\nMATERIAL A E=1\nPIPE 10 20 &\n   DX=6  DZZ=2 ! four\nCASE A = W\n"

@@ -9,7 +9,7 @@ from trunnion.deck.fields import Fields
 from trunnion.deck.interpreter import ACTIONS
 from trunnion.deck.keywords import TABLE
 from trunnion.deck.reader import read_text
-from trunnion.deck.reference import page
+from trunnion.deck.reference import EXAMPLE, page
 from trunnion.deck.units import DIMENSIONS
 from trunnion.model import Model, Units
 
@@ -41,6 +41,12 @@ def test_examples_of_the_table_make_a_deck():
     model = read_text("\n".join(lines))
     assert len(model.supports) == 3
     assert model.bends[0].radius == 0.381
+    assert read_text(model.deck()) == model
+
+
+def test_example_of_the_page_is_a_deck():
+    model = read_text(EXAMPLE)
+    assert [case.name for case in model.cases] == ["SUS", "OPE", "EXP"]
     assert read_text(model.deck()) == model
 
 

@@ -54,10 +54,15 @@ def test_displacements_are_in_mm_and_degrees(report):
 
 def test_states_show_how_much_friction_is_used(report):
     found = part(report, "OPE: SUPPORT STATES")
-    assert row(found, "30     +Y")[1:8] == [
-        "+Y", "slip", "-", "0.0000", "9.0000", "2.7000", "1.0000",
+    assert row(found, "30     +Y")[1:9] == [
+        "+Y", "slip", "-", "0.0000", "-", "9.0000", "2.7000", "1.0000",
     ]  # fmt: skip
-    assert row(found, "30     GUIDE")[2] == "open"
+
+
+def test_an_open_gap_shows_what_is_left_of_it(report):
+    found = row(part(report, "OPE: SUPPORT STATES"), "30     GUIDE")
+    assert found[2] == "open"
+    assert float(found[3]) + float(found[4]) == pytest.approx(50.0, abs=1e-4)
 
 
 def test_a_case_without_numbers_says_why(report):

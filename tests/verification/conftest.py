@@ -71,10 +71,15 @@ class Answer:
         assert len(found) == 1, f"{len(found)} contacts {word} at {label}"
         return found[0]
 
-    def slider(self, label: str) -> int:
-        """Number of the slider at a node."""
-        cards = self.system.sliders.card
-        found = [i for i, c in enumerate(cards) if self.system.cards[c].label == label]
+    def slider(self, label: str, word: str | None = None) -> int:
+        """Number of the slider at a node, of the contact `word` where there are several."""
+        s, c = self.system.sliders, self.system.contacts
+        found = [
+            i
+            for i in range(len(s.mu))
+            if self.system.cards[s.card[i]].label == label
+            and word in (None, c.word[s.contact[s.first[i]]])
+        ]
         assert len(found) == 1, f"{len(found)} sliders at {label}"
         return found[0]
 

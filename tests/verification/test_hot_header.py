@@ -5,7 +5,7 @@ from math import pi
 import numpy as np
 import pytest
 
-from trunnion.arrays import SLIP
+from trunnion.arrays import SLIP, STICK
 
 G = 9.80665
 OD, WALL, INSULATION = 0.2191, 0.00818, 0.080  # NPS 8 SCH 40
@@ -55,7 +55,7 @@ def test_first_rest_of_the_rack_lifts_off_when_hot(header):
     # riser of 8 m and vessel grow by about 26 mm at the hanger; the rest is 4 m from it
     assert not header["SUS"].is_open("70", "+Y")
     assert header["OPE"].is_open("70", "+Y")
-    assert 0.005 < header["OPE"].u("70")[1] < 0.020
+    assert header["OPE"].u("70")[1] == pytest.approx(7.1e-3, abs=5e-5)
 
 
 def test_hanger_gives_way_to_the_riser(header):
@@ -65,8 +65,19 @@ def test_hanger_gives_way_to_the_riser(header):
     assert header["OPE"].support("60")[1] == pytest.approx(9800 - 30e3 * movement, rel=1e-12)
 
 
-def test_rests_slide_when_hot(header):
-    assert np.count_nonzero(header["OPE"].state.mode == SLIP) >= 5
+def test_rests_stick_cold_and_slide_hot(header):
+    rests = ["80", "90", "115", "140", "150", "160", "170", "185"]
+    for label in rests:
+        cold, hot = header["SUS"], header["OPE"]
+        assert cold.state.mode[cold.slider(label, "+Y")] == STICK
+        assert hot.state.mode[hot.slider(label, "+Y")] == SLIP
+
+
+def test_axial_stops_are_reached(header):
+    hot = header["OPE"]
+    for label, push in (("70", 5.1), ("170", 4.9)):
+        reaction = hot.state.reaction[hot.contact(label, "LIMIT")]
+        assert abs(reaction[0]) / 1e3 == pytest.approx(push, abs=0.05)
 
 
 def test_friction_keeps_the_cooled_line_from_coming_back(header):
@@ -74,7 +85,7 @@ def test_friction_keeps_the_cooled_line_from_coming_back(header):
     assert np.abs(cold.u("90") - never_hot.u("90"))[:3].max() > 1e-4
 
 
-def test_nozzle_loads_stay_small(header):
-    load = header["OPE2"].load("10")
-    assert np.linalg.norm(load[:3]) < 15e3
-    assert np.linalg.norm(load[3:]) < 15e3
+def test_loads_on_the_nozzle(header):
+    load = header["OPE"].load("10")
+    assert load[:3] / 1e3 == pytest.approx([-1.42, -7.87, 0.01], abs=0.005)
+    assert load[5] / 1e3 == pytest.approx(-6.5, abs=0.05)

@@ -6,6 +6,8 @@ the largest force and re-checked in rational arithmetic by a third one.  Displac
 1e-9 m; a state may differ only within 1e-6 of its threshold, and then it is listed here.
 """
 
+import json
+import subprocess
 import sys
 from functools import cache
 from pathlib import Path
@@ -19,6 +21,7 @@ from trunnion.arrays import OPEN, SLIP, STICK
 ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT / "benchmarks"))
 from rack import (  # noqa: E402
+    node_displacements,
     plan_rotation,
     rack_model,
     read_rack,
@@ -52,11 +55,6 @@ def solved(n, case, angle=0.0):
     return run(n, case, angle)[case.upper()]
 
 
-def displacements(result, n):
-    order = [result.system.labels.index(str(i)) for i in range(n)]
-    return (result.state.u + result.state.u_low)[order]
-
-
 @pytest.mark.parametrize(("n", "case"), ALL)
 def test_certificate(n, case):
     result = solved(n, case)
@@ -67,7 +65,7 @@ def test_certificate(n, case):
 
 @pytest.mark.parametrize(("n", "case"), ALL)
 def test_displacements(n, case):
-    u = displacements(solved(n, case), n)
+    u = node_displacements(solved(n, case))
     assert np.abs(u - reference(n)[f"{case}_u"])[:, :3].max() < 1e-9
 
 
@@ -104,7 +102,7 @@ def test_states(n, case):
 def test_turned_model_gives_the_turned_answer(n, case, angle):
     result = solved(n, case, angle)
     assert result.certificate.worst < 1e-9
-    u = displacements(result, n)[:, :3] @ plan_rotation(angle)
+    u = node_displacements(result)[:, :3] @ plan_rotation(angle)
     assert np.abs(u - reference(n)[f"{case}_u"][:, :3]).max() < 1e-9
 
 
@@ -112,7 +110,7 @@ def test_turned_model_gives_the_turned_answer(n, case, angle):
 def test_turned_large_model(case):
     result = solved(1000, case, 23.0)
     assert result.certificate.worst < 1e-9
-    u = displacements(result, 1000)[:, :3] @ plan_rotation(23.0)
+    u = node_displacements(result)[:, :3] @ plan_rotation(23.0)
     assert np.abs(u - reference(1000)[f"{case}_u"][:, :3]).max() < 1e-9
 
 
@@ -121,7 +119,7 @@ def test_turned_large_model(case):
 def test_deck_says_the_same_as_the_model(deck, n, case):
     # the deck is in mm with rounded prints of exact numbers: same model to the last digits
     result = trunnion.solve(deck(f"rack_{n}"))[case.upper()]
-    u = displacements(result, n)
+    u = node_displacements(result)
     assert np.abs(u - reference(n)[f"{case}_u"])[:, :3].max() < 1e-9
 
 
@@ -140,6 +138,24 @@ def test_deck_is_what_its_script_writes(n, capsys):
 
     rack_deck.main(ROOT / f"tests/data/rack_{n}.json.gz")
     assert capsys.readouterr().out == (ROOT / f"models/rack_{n}.inp").read_text()
+
+
+def test_benchmark_writes_what_it_promises(tmp_path):
+    out = tmp_path / "out.json"
+    command = [sys.executable, ROOT / "benchmarks/rack.py", ROOT / "tests/data/rack_50.json.gz"]
+    done = subprocess.run([*command, "fric1", "-o", out], capture_output=True, check=False)
+    assert done.returncode == 0, done.stderr
+    data = json.loads(out.read_text())
+    u = np.array(data["displacements"])
+    assert np.abs(u - reference(50)["fric1_u"])[:, :3].max() < 1e-9
+    normal = np.array([s["normal"] for s in data["supports"]])
+    assert np.abs(normal - reference(50)["fric1_normal"]).max() < 1e-3
+    assert [s["id"] for s in data["supports"]] == [s["id"] for s in rack(50)["supports"]]
+    assert all(len(s["friction"]) == 3 for s in data["supports"])
+    assert data["certificate"]["passed"]
+    assert data["work"]["factorise"] > 0
+    assert data["seconds"] > 0
+    assert data["peak_mb"] > 0
 
 
 def test_rack_model_counts():

@@ -8,7 +8,21 @@ from math import pi
 import numpy as np
 import pytest
 
+import trunnion
 from trunnion.arrays import SLIP
+from trunnion.model import (
+    Case,
+    Direction,
+    Force,
+    Material,
+    Model,
+    Operation,
+    Pipe,
+    Section,
+    Settings,
+    Support,
+    Term,
+)
 
 N, MU, BAY, BAYS = 24357.1, 0.3, 10.0, 20
 EA = 203.4e9 * pi / 4 * (0.4064**2 - (0.4064 - 2 * 0.00953) ** 2)
@@ -56,3 +70,47 @@ def test_nothing_slides_when_cold(run):
     cold = run("sliding_line")["COLD"]
     assert np.all(cold.state.mode == STICK)
     assert np.abs(cold.state.friction).max() < 1e-6
+
+
+# The same line, 9 km long: its far part is locked, the virtual anchor is 7.9 km from the free end.
+# analytic_friction case B: locked force 5 800 337 N, end movement of 10 m bays 9.5135 m.
+
+
+@pytest.fixture(scope="module")
+def long_line(answer):
+    bays = 900
+    hot = Operation(t={"1": 220.0}, tref=20.0)
+    rest = (Direction("+Y"),)
+    model = Model(
+        settings=Settings(mu=MU),
+        materials={"S": Material("S", e=203.4e9, alpha=12e-6)},
+        sections={"P": Section("P", od=0.4064, wall=0.00953)},
+        pipes=[
+            Pipe(str(i), str(i + 1), (BAY, 0.0, 0.0), "P", "S", operation=hot) for i in range(bays)
+        ],
+        supports=[Support("0", "anchor")]
+        + [Support(str(i), "support", rest) for i in range(1, bays + 1)],
+        forces=[Force(str(i), "1", (0.0, -N, 0.0, 0.0, 0.0, 0.0)) for i in range(bays + 1)],
+        cases=[Case("OPE", (Term(1.0, "F1"), Term(1.0, "T1")))],
+    )
+    return answer(trunnion.solve(model)["OPE"])
+
+
+def test_long_line_is_locked_between_the_anchors(long_line):
+    # a few bays from the anchor, whose spring of 1e12 N/m gives way by 6e-6 m
+    assert long_line.end("50", "51", 0)[0] == pytest.approx(5800337, abs=0.5)
+
+
+def test_long_line_slides_up_to_the_virtual_anchor(long_line):
+    # E A alpha dT / (mu N) = 793.8 rests; the last of them slips in part, in its spring
+    assert np.count_nonzero(long_line.state.mode == SLIP) in (792, 793)
+
+
+def test_end_movement_of_the_long_line(long_line):
+    locked = EA * FREE
+    sliding = range(1, int(locked / (MU * N)) + 1)
+    rigid = sum(FREE * BAY - k * MU * N * BAY / EA for k in sliding)
+    moved = long_line.u("900")[0]
+    assert moved == pytest.approx(9.5135, abs=5e-5)
+    # rests that stick give way by at most mu N / k_f each
+    assert rigid < moved < rigid + MU * N / 1e8

@@ -47,9 +47,9 @@ def add(
         check_case_name(record, None, complain)
         read_expression(record, str(args[1]), 0, complain)
     elif form == "directions":
-        read_directions(record, [args[0], *given, *_flat(args[1:])], fields, complain)
+        read_directions(record, [str(args[0]), *given, *_flat(args[1:])], fields, complain)
     else:
-        read_fields(record, [*args, *given], fields, complain)
+        read_fields(record, [*map(str, args), *given], fields, complain)
     faults = [Fault(place, record.head, message, mark) for message, mark in heard]
     carried = model.carried or Carried()
     kept = carried.section, carried.material, carried.operation
@@ -100,7 +100,7 @@ def _problems(faults: list[Fault]) -> list[Problem]:
     return [
         Problem(
             fault.place if fault.place.file else "model",
-            f"{fault.head}: {fault.message}" if fault.head else fault.message,
+            fault.text,
         )
         for fault in faults
     ]

@@ -3,26 +3,28 @@
 from trunnion.deck import expressions as ex
 from trunnion.deck.context import Context
 from trunnion.deck.record import Record
-from trunnion.model import Case, Comb, Term
+from trunnion.model import Case, Comb
 
 
 def case(run: Context, record: Record) -> None:
-    """CASE: a sum of load sets; of names of cases it is a COMB."""
+    """CASE: a sum of load sets; of names of cases only it is a COMB."""
+    cases = {case.name for case in run.model.cases}
     names = ex.case_names(record.expression)
-    if names and not any(n in ex.RESERVED for n in names):
-        known = {case.name for case in run.model.cases} | run.carried.broken
-        if all(n in known for n in names) and "vector" not in str(record.expression):
-            _comb_of_case(run, record)
-            return
+    if names and not ex.has_vector(record.expression) and cases.issuperset(names):
+        for key in record.keys:
+            message = f"{key}: this sums results of cases, a COMB, which has no {key}"
+            run.complain(record, message, f"{key}=")
+        comb(run, record)
+        return
+    if not _are_load_sets(run, record, names, cases):
+        run.give_up(record)
+        return
     try:
         items = ex.terms(record.expression)
     except ValueError as error:
         run.complain(record, str(error), "ABS")
         return
-    faulty = _faulty_terms(run, record, items)
     keys = record.keys
-    if faulty:
-        return
     run.keep(
         run.model.cases,
         Case(
@@ -40,46 +42,23 @@ def case(run: Context, record: Record) -> None:
     )
 
 
-def _faulty_terms(run: Context, record: Record, items: list[Term]) -> bool:
-    """Complain of terms of a CASE that are no load sets."""
-    cases = {case.name for case in run.model.cases}
-    faulty = False
-    for name in dict.fromkeys(term.name for term in items):
-        if name in ex.LOAD_SETS or (name == "U" and _has_vector(items)):
-            continue
-        faulty = True
-        if name in run.carried.broken and name not in cases:
-            continue
+def _are_load_sets(run: Context, record: Record, names: list[str], cases: set[str]) -> bool:
+    """Tell whether all names in a CASE are load sets, and complain of those that are not."""
+    wrong = [name for name in dict.fromkeys(names) if name not in ex.LOAD_SETS]
+    for name in wrong:
         if name in cases:
             message = f"{name} is a case; CASE sums load sets, COMB sums results of cases"
-        else:
-            message = ex.unknown_set(name, cases)
-        run.complain(record, message, name)
-    return faulty
-
-
-def _has_vector(items: list[Term]) -> bool:
-    """Tell whether U stands with its vector."""
-    return all(term.vector is not None for term in items if term.name == "U")
-
-
-def _comb_of_case(run: Context, record: Record) -> None:
-    """CASE EXP = OPE - SUS is a combination."""
-    for key in record.keys:
-        run.complain(
-            record, f"{key}: this sums results of cases, a COMB, which has no {key}", f"{key}="
-        )
-    comb(run, record)
+            run.complain(record, message, name)
+        elif name not in run.carried.broken:
+            run.miss(record, ex.unknown_set(name, cases), name)
+    return not wrong
 
 
 def comb(run: Context, record: Record) -> None:
     """COMB: an expression of names of cases."""
     expression = record.expression
-    text = str(expression)
-    if "'vector'" in text:
-        run.complain(record, "U(x,y,z) is a load set; COMB sums results of cases", "U")
-        return
-    for name in dict.fromkeys(ex.case_names(expression)):
+    names = ["U"] if ex.has_vector(expression) else []
+    for name in dict.fromkeys([*names, *ex.case_names(expression)]):
         if name in ex.RESERVED:
             run.complain(record, f"{name} is a load set; COMB sums results of cases", name)
             return

@@ -4,7 +4,7 @@ from dataclasses import replace
 from typing import Any
 
 from trunnion.deck import values as va
-from trunnion.deck.fields import Complain, Fields, read_key, read_label
+from trunnion.deck.fields import Complain, Fields, read_key
 from trunnion.deck.keywords import DIRECTIONS, KEYWORDS, PIPE_DIRECTIONS
 from trunnion.deck.record import Record
 from trunnion.deck.values import WordError, nearest
@@ -27,7 +27,7 @@ def read_directions(record: Record, items: list[Any], fields: Fields, complain: 
         complain("node label missing", None)
         return
     try:
-        record.args.append(read_label(items[at]))
+        record.args.append(va.label(items[at]))
     except WordError as fault:
         record.args.append(str(items[at]).upper())
         complain(str(fault), at + 1)

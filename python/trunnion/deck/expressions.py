@@ -199,6 +199,12 @@ def case_names(expression: Any) -> list[str]:
     return [n for part in expression[1:] if isinstance(part, tuple) for n in case_names(part)]
 
 
+def has_vector(expression: Any) -> bool:
+    """Tell whether U(x,y,z) is in an expression."""
+    parts = (part for part in expression[1:] if isinstance(part, tuple))
+    return expression[0] == "vector" or any(has_vector(part) for part in parts)
+
+
 def format_expression(expression: Any, inner: bool = False) -> str:
     """Write an expression in one standard form, which parses to an equal one."""
     kind, *parts = expression

@@ -47,18 +47,6 @@ def fields_of(units: Units) -> Fields:
 _POSITIONALS: dict[str, tuple[Positional, ...]] = {k: w.positionals for k, w in KEYWORDS.items()}
 _FAMILIES = frozenset((*TEMPERATURE_SETS, *PRESSURE_SETS))
 _REQUIRED = {k: tuple(key.name for key in w.keys if key.required) for k, w in KEYWORDS.items()}
-_LABELS: dict[str, str] = {}
-
-
-def read_label(value: object) -> str:
-    """Read a node label; labels seen before are looked up."""
-    found = _LABELS.get(value)  # type: ignore[call-overload]
-    if found is None:
-        found = va.label(value)
-        if len(_LABELS) > 500_000:
-            _LABELS.clear()
-        _LABELS[str(value)] = found
-    return str(found)
 
 
 def read_fields(record: Record, items: list[Any], fields: Fields, complain: Complain) -> None:
@@ -136,7 +124,7 @@ def _one_too_many(word: str, keyword: str, most: int) -> str:
 def _positional(item: Any, wanted: Positional) -> str:
     """Read one positional."""
     if wanted.kind == "node":
-        return read_label(item)
+        return va.label(item)
     if wanted.kind == "name":
         return va.name(item)
     found = str(item).strip().upper()

@@ -41,3 +41,8 @@ class Fault:
     head: str
     message: str
     mark: Mark = None
+
+    @property
+    def text(self) -> str:
+        """Card and message, as errors show them."""
+        return f"{self.head}: {self.message}" if self.head else self.message

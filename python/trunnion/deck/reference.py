@@ -7,8 +7,10 @@ from collections.abc import Iterator
 
 from trunnion.deck import units as un
 from trunnion.deck.cards import MAX_BYTES, MAX_CARD, MAX_DEPTH, MAX_LINE
-from trunnion.deck.keywords import ANY, TABLE, Key, Keyword
+from trunnion.deck.keywords import ANY, PRESSURE_SETS, TABLE, TEMPERATURE_SETS, Key, Keyword
+from trunnion.materials import GRADES
 from trunnion.model import Units
+from trunnion.sections import SCHEDULES
 
 _INTRODUCTION = f"""# The deck
 
@@ -34,13 +36,38 @@ includes, {MAX_DEPTH} files deep. Only ordinary files are read.
 """
 
 
+_FAMILIES = frozenset((*TEMPERATURE_SETS, *PRESSURE_SETS))
+
+EXAMPLE = """\
+TITLE    Hot oil header, one expansion loop
+UNITS    mm kN bar C
+DEFAULT  MU=0.3
+MATERIAL A106B  E=203GPa NU=0.3 ALPHA=11.7e-6 DENSITY=7850
+SECTION  HDR    NPS=10 SCH=40 FLUID=850 INSULATION=75mm INSULATION_DENSITY=140
+OPERATE  T1=170 P1=12 TREF=20
+
+ANCHOR   10
+PIPE     10 20   DX=6000
+SUPPORT  20      +Y GUIDE GAP=3     ! rests, and is guided with 3 mm to each side
+PIPE     20 30   DX=6000
+BEND     30      R=381
+PIPE     30 40   DZ=4000
+SUPPORT  40      +Y
+SUPPORT  30M     +Y K=2kN/mm
+
+CASE SUS = W + P1
+CASE OPE = W + P1 + T1
+COMB EXP = OPE - SUS
+"""
+
+
 def page() -> str:
     """Write the whole page."""
-    lines = [_INTRODUCTION, "## Cards", ""]
+    lines = [_INTRODUCTION, "```", EXAMPLE + "```", "", "## Cards", ""]
     lines += [f"- [{k.name}](#{k.name.lower()}): {_first_sentence(k.meaning)}" for k in TABLE]
     for keyword in TABLE:
         lines += ["", *_card(keyword)]
-    lines += ["", *_units()]
+    lines += ["", *_units(), "", *_tables()]
     return "\n".join(lines) + "\n"
 
 
@@ -83,7 +110,12 @@ def _card(keyword: Keyword) -> Iterator[str]:
         yield "| key | meaning | dimension or choices | without it |"
         yield "|---|---|---|---|"
         for key in keyword.keys:
-            yield f"| `{key.name}=` | {key.meaning} | {_values(key)} | {_without(key)} |"
+            if key.name not in _FAMILIES:
+                yield f"| `{key.name}=` | {key.meaning} | {_values(key)} | {_without(key)} |"
+            elif key.name.endswith("1"):  # one row for T1 to T9
+                names = f"`{key.name}=` to `{key.name[0]}9=`"
+                meaning = key.meaning.replace(f"set {key.name}", "that set")
+                yield f"| {names} | {meaning} | {_values(key)} | {_without(key)} |"
 
 
 def _values(key: Key) -> str:
@@ -121,6 +153,16 @@ def _units() -> Iterator[str]:
         if dimension == "expansion":
             cells = ["/K, or /F when T is F"] * len(un.LENGTHS)
         yield f"| {dimension} | {meaning} | " + " | ".join(cells) + " |"
+
+
+def _tables() -> Iterator[str]:
+    """List the rows of the libraries that GRADE and SCH name."""
+    yield "## Libraries"
+    yield ""
+    yield "Grades of `GRADE=`, with E and mean expansion against temperature, density at 20 C:"
+    yield f"{', '.join(GRADES)}."
+    yield ""
+    yield f"Schedules of `SCH=`: {', '.join(SCHEDULES)}."
 
 
 if __name__ == "__main__":

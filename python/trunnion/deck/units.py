@@ -9,7 +9,7 @@ import math
 import re
 from collections.abc import Callable
 from functools import lru_cache
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from trunnion.model import Units
 
@@ -191,7 +191,7 @@ def _compound(text: str) -> Unit | None:
 
 
 @lru_cache(maxsize=1)
-def _registry() -> object:
+def _registry() -> Any:
     """Load the registry of pint, which takes half a second."""
     import pint
 
@@ -203,14 +203,17 @@ def _by_pint(text: str) -> Unit:
     unknown = SuffixError(f"unit {text} is not known")
     if len(text) > 40 or not re.fullmatch(r"/?[A-Za-z]+[\w./*^-]*", text, re.ASCII):
         raise unknown
-    registry: object = _registry()
+    try:
+        registry = _registry()
+    except ImportError as error:
+        raise SuffixError(f"unit {text} needs the package pint") from error
     spelled = "1" + text if text.startswith("/") else text
     spelled = re.sub(r"(?<=[A-Za-z])([1-9])", r"**\1", spelled.replace(".", "*"))
     for sensitive in (True, False):
         try:
-            unit = registry.parse_units(spelled, case_sensitive=sensitive)  # type: ignore[attr-defined]
+            unit = registry.parse_units(spelled, case_sensitive=sensitive)
             base = (1 * unit).to_base_units()
-        except Exception:
+        except Exception:  # pint and its parser raise many kinds; all mean: no such unit
             continue
         dims = dict(base.dimensionality)
         known = ("[length]", "[mass]", "[time]", "[temperature]")

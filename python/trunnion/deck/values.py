@@ -3,6 +3,7 @@
 import re
 from collections.abc import Callable, Collection
 from difflib import get_close_matches
+from functools import lru_cache
 from typing import Any
 
 from trunnion.deck.keywords import ANY, Key
@@ -90,9 +91,10 @@ def gap(value: object, scale: Scale, dimension: str) -> tuple[float, float]:
     return both[0], both[-1]
 
 
-def label(value: object) -> str:
+@lru_cache(maxsize=2**18)  # a label stands on many cards
+def label(value: str) -> str:
     """Node label: letters, digits, "_" and ".", upper case."""
-    text = str(value).strip().upper()
+    text = value.strip().upper()
     if _LABEL.fullmatch(text) is None:
         raise WordError(f"{value} is no node label (letters, digits, _ and . , up to 32)")
     return text
@@ -135,7 +137,7 @@ def along(value: object) -> str:
     ends = value.split("-") if isinstance(value, str) else value
     if not isinstance(ends, (list, tuple)) or len(ends) != 2:
         raise WordError(f"{value} is no pipe; write ALONG=30-40")
-    return f"{label(ends[0])}-{label(ends[1])}"
+    return f"{label(str(ends[0]))}-{label(str(ends[1]))}"
 
 
 Reader = Callable[[Any], Any]
@@ -156,14 +158,29 @@ def reader_of(key: Key, scales: dict[str, Scale], dimension: str = "") -> Reader
             return lambda value: gap(value, scales[dimension], dimension)
     if bounds is not ANY:
         raise ValueError(f"bounds on {key.name}")
-    return {"node": label, "name": name, "text": text, "vector": vector, "along": along}[key.kind]
+    return {
+        "node": lambda value: label(str(value)),
+        "name": name,
+        "text": text,
+        "vector": vector,
+        "along": along,
+    }[key.kind]
 
 
 def _number_reader(key: Key, scale: Scale, dimension: str) -> Reader:
     """Build the reader of a number; the common case, without suffix and bounds, is short."""
+    if dimension == "temperature":
+        return lambda value: _possible(number(value, scale, dimension), value)
     if key.bounds is ANY:
         return lambda value: number(value, scale, dimension)
     return lambda value: _within(number(value, scale, dimension), value, key)
+
+
+def _possible(celsius: float, value: object) -> float:
+    """Refuse temperatures that do not exist."""
+    if celsius < -273.15:
+        raise WordError(f"{value} is below absolute zero")
+    return celsius
 
 
 def _within(found: float, value: object, key: Key) -> Any:

@@ -23,11 +23,13 @@ def displacement_table(case: CaseResult, units: ReportUnits) -> str:
 def element_tables(case: CaseResult, units: ReportUnits) -> str:
     """Print the end forces on every element, global and in the axes of its ends."""
     force = solved(case).end_force
+    if not len(force):
+        return ""
     local = local_forces(case.system, force)
     name = case.name
     text = section(f"{name}: ELEMENT FORCES", "ON THE ELEMENT at its ends, global")
     text += table(_ends(case, force, units, ("FX", "FY", "FZ", "MX", "MY", "MZ")))
-    note = "ON THE ELEMENT at its ends; x along the pipe at that end"
+    note = "ON THE ELEMENT at its ends; x along the pipe there; AXIAL > 0 at the second: tension"
     text += section(f"{name}: ELEMENT FORCES, LOCAL", note)
     heads = ("AXIAL", "SHEAR y", "SHEAR z", "TORSION", "BENDING y", "BENDING z")
     return text + table(_ends(case, local, units, heads))

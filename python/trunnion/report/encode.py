@@ -38,7 +38,8 @@ def short(values: NDArray[np.float64]) -> list[str]:
     if not np.isfinite(values).all():
         raise ValueError("JSON has no number for an infinite or undefined value")
     form = "[" + ",".join(["%.9g"] * m) + "]\n"
-    return ((form * n) % tuple((values + 0.0).ravel().tolist())).split("\n")[:n]
+    text: str = (form * n) % tuple((values + 0.0).ravel().tolist())
+    return text.split("\n")[:n]
 
 
 def finite(value: float) -> float | None:

@@ -20,6 +20,8 @@ HEADS = {
 def stress_table(case: CaseResult, units: ReportUnits) -> str:
     """Print nominal stresses at both ends of every pipe and at the bends' middles."""
     element, first, second = end_stresses(case)
+    if not element.size:
+        return ""
     labels, middle = mid_stresses(case)
     parts = [case.system.parts[i] for i in element.tolist()]
     names = [name for p in parts for name in (f"{p.start}-{p.end}", "")]

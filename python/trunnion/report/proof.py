@@ -10,6 +10,7 @@ from trunnion.balance import load_sum, reaction_sum
 from trunnion.report.answers import largest
 from trunnion.report.columns import Column, integers, numbers, section, table, words, wrapped
 from trunnion.report.units import ReportUnits
+from trunnion.supports import card_forces
 
 FIRST, LAST = 8, 16  # iterations printed of a long history
 
@@ -20,8 +21,9 @@ def balance_table(case: CaseResult, units: ReportUnits) -> str:
         return ""
     loads, reactions = load_sum(case.system, case.loads), reaction_sum(case)
     rows = np.stack([loads, reactions, loads + reactions])
-    q = units.force.showing(largest(rows[:, :3]))
-    m = units.moment.showing(largest(rows[:, 3:]))
+    held = card_forces(case)  # sums may cancel to round-off
+    q = units.force.showing(largest(np.vstack([rows, held])[:, :3]))
+    m = units.moment.showing(largest(np.vstack([rows, held])[:, 3:]))
     columns = [words("", ["loads", "restraints on the pipe", "balance"], most=24)]
     for i, head in enumerate(("FX", "FY", "FZ", "MX", "MY", "MZ")):
         columns.append(numbers(head, rows[:, i], m if i > 2 else q, 14))
@@ -38,12 +40,13 @@ def certificate_table(case: CaseResult) -> str:
     inherited = ", inherited from the cases it combines" if found.inherited else ""
     text += wrapped(f"{verdict}: worst {found.worst:.1e}, {found.where}{inherited}")
     if found.items:
-        values = [f"{item.value:.1e}" for item in found.items]
+        values = [f"{item.value:.1e}" if item.value else "0" for item in found.items]
+        places = [f"  {item.where}" if item.value else "" for item in found.items]
         text += table(
             [
                 words("ITEM", [item.name for item in found.items], least=20),
                 Column("VALUE", "", "%10s", 10, values),
-                words("  WORST AT", [f"  {item.where}" for item in found.items]),
+                words("  WORST AT", places),
             ]
         )
     for name, value in case.penalty_effect.items():
@@ -65,17 +68,8 @@ def history_table(case: CaseResult) -> str:
     left_out = max(len(history) - FIRST - LAST, 0)
     shown = history if not left_out else [*history[:FIRST], *history[-LAST:]]
     keys = list(dict.fromkeys(key for record in shown for key in record))
-    scalar = [key for key in keys if not any(_is_list(r.get(key)) for r in shown)]
-    columns = [
-        Column(key.upper(), "", "%12s", 12, [_cell(r.get(key)) for r in shown])
-        for key in scalar[:7]
-    ]
-    for key in keys:
-        if key not in scalar:
-            lists = [_names(record.get(key)) for record in shown]
-            head = f"  {key.upper()}"
-            columns.append(words(head, [f"  {_few(names)}" for names in lists]))
-            break
+    columns = [_column(key, [record.get(key) for record in shown]) for key in keys]
+    columns.sort(key=lambda column: column.left and column.head != "  WHAT")
     text = section(f"{case.name}: ITERATIONS", f"{len(history)} in all") + table(columns)
     if left_out:
         text += f"  {left_out} iterations after number {FIRST} of this table are left out\n"
@@ -103,8 +97,12 @@ def _restless(case: CaseResult) -> str:
     )
 
 
-def _is_list(value: object) -> bool:
-    return isinstance(value, list | tuple | dict)
+def _column(key: str, values: Sequence[object]) -> Column:
+    """Set one entry of the history: numbers to the right, words and names of supports left."""
+    if any(_names(value) or isinstance(value, str) for value in values):
+        cells = [value if isinstance(value, str) else _few(_names(value)) for value in values]
+        return words(f"  {key.upper()}", [f"  {cell}" for cell in cells])
+    return Column(key.upper(), "", "%12s", 12, [_cell(value) for value in values])
 
 
 def _names(value: object) -> list[str]:
@@ -123,7 +121,7 @@ def _few(names: Sequence[str]) -> str:
 
 
 def _cell(value: object) -> str:
-    if value is None:
+    if value is None or isinstance(value, list | tuple | dict):
         return ""
     return f"{value:.3e}" if isinstance(value, float | np.floating) else str(value)[:11]
 

@@ -14,7 +14,9 @@ from trunnion.report.units import Quantity, ReportUnits
 def support_echo(model: Model, system: System, units: ReportUnits) -> str:
     """Print every support card."""
     kinds = {kind: [s for s in model.supports if s.kind == kind] for kind in ("anchor", "spring")}
-    text = section("ANCHORS", "- K: rigid") + _anchors(kinds["anchor"], units)
+    text = ""
+    if kinds["anchor"]:
+        text += section("ANCHORS", "- K: rigid") + _anchors(kinds["anchor"], units)
     text += section(
         "SUPPORTS", "n along the word, round a vertical pipe (GUIDE) along the pipe; - K: rigid"
     )
@@ -62,9 +64,9 @@ def _directions(system: System, units: ReportUnits) -> str:
         words("CNODE", [card.cnode for card in cards]),
         *(plain(f"n{'xyz'[i]}", normal[:, i], 4, 9) for i in range(3)),
         *(_gap(f"GAP {'-+'[i]}", free[:, i], units) for i in range(2)),
-        numbers("K", k, units.stiffness, 13),
+        _given("K", k.tolist(), units.stiffness, 13),
         plain("MU", mu[at], 3, 8),
-        numbers("KF", kf[at], units.stiffness, 13),
+        _given("KF", kf[at].tolist(), units.stiffness, 13),
         integers("LINE", [card.line for card in cards]),
         words("  NAME", [f"  {_own_name(card)}" for card in cards]),
     ]
@@ -87,7 +89,7 @@ def _springs(cards: Sequence[Support], units: ReportUnits) -> str:
     columns = [words("NODE", [s.node for s in cards])]
     for i, head in enumerate(("KX", "KY", "KZ", "KRX", "KRY", "KRZ")):
         quantity = units.rotational_stiffness if i > 2 else units.stiffness
-        columns.append(numbers(head, [row[i] for row in k], quantity, 16))
+        columns.append(_given(head, [row[i] for row in k], quantity, 16))
     return table([*columns, integers("LINE", [s.place.line for s in cards])])
 
 
@@ -104,5 +106,7 @@ def _hangers(cards: Sequence[Support], units: ReportUnits) -> str:
 
 
 def _given(head: str, values: Sequence[float | None], quantity: Quantity, width: int) -> Column:
-    """Set numbers of which some were not given."""
-    return numbers(head, [np.nan if v is None else v for v in values], quantity, width)
+    """Set numbers of which some were not given, with the decimals that the smallest needs."""
+    known = np.array([np.nan if v is None else v for v in values], np.float64)
+    sizes = np.abs(known[np.isfinite(known) & (known != 0.0)])
+    return numbers(head, known, quantity.showing(sizes.min(initial=np.inf)), width)

@@ -22,7 +22,8 @@ def restraint_summary(cases: Sequence[CaseResult], units: ReportUnits) -> str:
     node = card_nodes(system)
     move = np.stack([solved(case).u[node, :3] for case in cases], axis=1)
     text = section("LARGEST OF ALL") + _largest_of_all(cases, force, units)
-    return text + section("EVERY RESTRAINT", NOTE) + _blocks(cases, force, move, units)
+    text += section("EVERY RESTRAINT", NOTE) + _blocks(cases, force, move, units)
+    return text + _hangers(cases, force, move, units)
 
 
 def card_nodes(system: System) -> list[int]:
@@ -63,7 +64,8 @@ def _blocks(cases: Sequence[CaseResult], force: F8, move: F8, units: ReportUnits
     for i, card in enumerate(cards):
         place = f"   line {card.line}" if card.line else ""
         out.append(f"  {card.name}{place}\n")
-        for name, state, values in zip(names, states[i], rows[i * per :], strict=False):
+        own = rows[i * per : i * per + n_case]
+        for name, state, values in zip(names, states[i], own, strict=True):
             out.append(row % (name, state or "", *values))
         if several:
             out.append(top % ("MAX", "", *rows[i * per + n_case][:6]))
@@ -99,3 +101,25 @@ def _largest_of_all(cases: Sequence[CaseResult], force: F8, units: ReportUnits) 
 def _where(names: list[str], there: list[bool]) -> list[str]:
     """Leave out the place of what is nothing."""
     return [name if yes else "-" for name, yes in zip(names, there, strict=True)]
+
+
+def _hangers(cases: Sequence[CaseResult], force: F8, move: F8, units: ReportUnits) -> str:
+    """Print load and travel of the spring hangers; CHANGE is that from the cold load, of it."""
+    up = cases[0].system.up
+    at = [i for i, card in enumerate(cases[0].system.cards) if card.kind == "hanger"]
+    if not at:
+        return ""
+    rows = [(i, j, case) for i in at for j, case in enumerate(cases) if case.kind == "case"]
+    load = np.array([-force[i, j, :3] @ up for i, j, _ in rows])
+    cold = np.array([case.loads.preload[i] if case.loads else 0.0 for i, _, case in rows])
+    change = np.divide(load - cold, cold, out=np.full(len(cold), np.nan), where=cold != 0.0)
+    columns = [
+        words("HANGER", [cases[0].system.cards[i].name for i, _, _ in rows]),
+        words("CASE", [case.name for _, _, case in rows], least=12),
+        numbers("COLD LOAD", cold, units.force, 12),
+        numbers("LOAD", load, units.force, 12),
+        numbers("TRAVEL UP", [move[i, j] @ up for i, j, _ in rows], units.movement, 12),
+        plain("CHANGE", 100.0 * change, 1, 10, "[%]"),
+    ]
+    note = "upward on the pipe; change from the cold load"
+    return section("SPRING HANGERS", note) + table(columns)

@@ -29,6 +29,7 @@ def state_table(case: CaseResult, units: ReportUnits) -> str:
     capacity = np.append(sliders.mu, 0.0)[owner] * mux * normal
     size = np.linalg.norm(friction, axis=1)
     used = np.divide(size, capacity, out=np.full(len(size), np.nan), where=capacity > 0)
+    along = _along(case)
     level = contact_levels(contacts, sliders, state)
     turning = contacts.rotational
     q = units.force.showing(largest(np.where(turning, 0.0, normal)))
@@ -40,14 +41,18 @@ def state_table(case: CaseResult, units: ReportUnits) -> str:
         words("WORD", [contacts.word[i] for i in at]),
         words("STATE", [STATES[level[i]] for i in at], least=8),
         words("SIDE", [SIDES[int(state.side[i])] for i in at], least=5),
-        numbers("MOVED", (_along(case) * turned)[at], d, 11),
+        numbers("MOVED", (along * turned)[at], d, 11),
+        numbers("CLEAR", (_clear(case, along) * turned)[at], d, 10),
         numbers("N", (normal * factor)[at], q, 12),
         numbers("F", size[at], q, 12),
         plain("F/(mu N)", used[at], 4, 10),
-        numbers("SLIDE", np.where(rubs, slide, np.nan)[at], d, 11),
+        numbers("SLIDE", np.where(rubs & (level > OPEN), slide, np.nan)[at], d, 11),
         *(numbers(f"F{'XYZ'[k]}", -friction[at, k], q, 11) for k in range(3)),
     ]
-    note = "friction ON THE RESTRAINT; MOVED along the word (rotations: deg, moment)"
+    note = (
+        "friction ON THE RESTRAINT; MOVED along the word, CLEAR to the nearer stop "
+        "(rotations: deg, moment)"
+    )
     return section(f"{case.name}: SUPPORT STATES", note) + table(columns)
 
 
@@ -62,3 +67,12 @@ def _along(case: CaseResult) -> F8:
     radial = np.linalg.norm(components, axis=1)
     along: F8 = np.where(contacts.dim == 2, radial, components[:, 0])
     return along
+
+
+def _clear(case: CaseResult, along: F8) -> F8:
+    """(n_contact,) way left to the nearer stop of an open contact [m, rad]; NaN where closed."""
+    gap = case.system.contacts.gap
+    one_way = np.minimum(gap[:, 0] + along, gap[:, 1] - along)
+    radial = gap[:, 1] - along
+    left: F8 = np.where(case.system.contacts.dim == 2, radial, one_way)
+    return np.where(solved(case).side == OPEN, left, np.nan)

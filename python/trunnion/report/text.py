@@ -13,6 +13,12 @@ from trunnion.report.summary import summary_table
 from trunnion.report.units import ReportUnits, report_units
 from trunnion.supports import cause_of, is_good
 
+CERTIFIED = (
+    "Every case shows its certificate, computed from the reported numbers alone: every item is at "
+    "most 1e-9, forces relative to the largest support force or non-thermal load, moments to the "
+    "largest moment, lengths to the largest displacement, deformations to the largest deformation."
+)
+
 
 def text_report(results: Results, model: Model) -> bytes:
     """Write the whole report."""
@@ -22,19 +28,21 @@ def text_report(results: Results, model: Model) -> bytes:
     parts.append(f"{results.title or '(no title)'}\n")
     parts.append(chapter("1  SUMMARY"))
     parts.append(summary_table(results, units))
-    parts += [f"  {name}: {cause_of(c)}\n" for name, c in results.cases.items() if c not in good]
+    parts += [wrapped(f"{c.name}: {cause_of(c)}") for c in results.cases.values() if not is_good(c)]
     parts.append(warnings(results))
     parts.append(chapter("2  INPUT"))
-    parts.append(input_echo(model, _system(results), units))
+    texts = {name: case.text for name, case in results.cases.items()}
+    parts.append(input_echo(model, _system(results), texts, units))
     parts.append(chapter("3  LOADS ON RESTRAINTS"))
     parts.append(restraint_summary(good, units))
     parts.append(chapter("4  RESULTS BY CASE"))
+    parts.append(wrapped(CERTIFIED, ""))
     parts += [_case(case, units) for case in results.cases.values()]
     parts.append(chapter("5  WORK"))
     work = {name: case.work for name, case in results.cases.items()}
     parts.append(ledger_table(work | {"whole run": results.work}))
     parts.append(f"\n{'END OF REPORT':^{PAGE}}".rstrip() + "\n")
-    return "".join(parts).encode()
+    return "".join(parts).encode(errors="replace")
 
 
 def _system(results: Results) -> System:

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import floor, log10, pi
+from math import floor, isfinite, log10, pi
 
 from trunnion.deck.units import derived, scale_of, to_celsius
 from trunnion.model import Units
@@ -28,7 +28,7 @@ class Quantity:
     def showing(self, largest: float) -> "Quantity":
         """Give it the decimals that a largest value [SI] needs."""
         size = abs(largest) * self.factor
-        if size == 0.0:
+        if size == 0.0 or not isfinite(size):
             return self
         needed = DIGITS - 1 - floor(log10(size))
         return Quantity(self.unit, self.factor, min(max(self.decimals, needed), 9))
