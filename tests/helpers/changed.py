@@ -236,9 +236,7 @@ def worst(one: Numbers, two: Numbers) -> float:
         a, b = getattr(one, name), getattr(two, name)
         for half in (slice(0, 3), slice(3, 6)):
             size = max(1e-300, np.abs(a[..., half]).max())
-            if name == "u":  # a rotation moves what is a metre away
-                size = max(size, 1e-3 * np.abs(a).max())
-            else:
-                size = max(size, 1.0)
+            # a rotation moves what is a metre away; forces below 1 N are none
+            size = max(size, 1e-3 * np.abs(a).max() if name == "u" else 1.0)
             out = max(out, float(np.abs(a[..., half] - b[..., half]).max()) / size)
     return out

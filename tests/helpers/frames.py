@@ -105,7 +105,7 @@ def _supports(model: Model, rng: np.random.Generator, n: int) -> None:
 
 def _words(model: Model, rng: np.random.Generator, label: str, corner: bool) -> list[object]:
     gap = {"GAP": float(rng.choice([0.0, 0.001, 0.003, 0.01]))}
-    skew = tuple(float(x) for x in rng.normal(size=3) + (0.0, 1.5, 0.0))
+    skew = tuple(float(x) for x in rng.normal(size=3) + np.array((0.0, 1.5, 0.0)))
     menu: list[list[object]] = [
         ["+Y"],
         ["+Y"],

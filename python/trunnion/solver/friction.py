@@ -185,15 +185,16 @@ def damped(
     response: Response,
 ) -> Solved:
     """Renew by damped steps, each followed by a try of the coupled law."""
-    for i in range(STEPS):
+    taken = 0
+    for _ in range(STEPS):
         better = settle(structure, point, sliding, forcing, history, response)
         if better is None:
             break
-        response = better
+        response, taken = better, taken + 1
         coupled = finish(structure, point, sliding, forcing, history)
         if coupled is not None:
             return coupled
-    return Solved(False, response, sliding, "the normal forces do not settle", i)
+    return Solved(False, response, sliding, "the normal forces do not settle", taken)
 
 
 def finish(
