@@ -407,10 +407,10 @@ class Model:
     forces: list[Force] = field(default_factory=list)
     accelerations: list[Acceleration] = field(default_factory=list)
     winds: list[Wind] = field(default_factory=list)
-    snow: list[Snow] = field(default_factory=list)
+    snows: list[Snow] = field(default_factory=list)
     spectra: dict[str, Spectrum] = field(default_factory=dict)
     groups: list[Group] = field(default_factory=list)
-    modes: Modes | None = None
+    modal: Modes | None = None  # what the MODES card asks for
     cases: list[Case | Comb] = field(default_factory=list)
     cycles: list[Cycle] = field(default_factory=list)
     # what cards leave behind for the cards that follow (deck.interpreter.Carried)
