@@ -138,6 +138,16 @@ def support_forces(result: CaseResult, rack: Rack) -> tuple[np.ndarray, np.ndarr
     return normal[:n], friction[:n]
 
 
+def node_displacements(result: CaseResult) -> np.ndarray:
+    """Displacements [m, rad] in the order of the rack's nodes."""
+    system, state = result.system, result.state
+    if state is None:
+        raise ValueError(f"not converged: {result.cause}")
+    order = np.argsort([int(label) for label in system.labels])
+    u: np.ndarray = (state.u + state.u_low)[order]
+    return u
+
+
 def answer(rack: Rack, case: str) -> Rack:
     """Solve a case and describe the answer in plain data."""
     name = case.upper()
@@ -162,10 +172,9 @@ def answer(rack: Rack, case: str) -> Rack:
         return {**out, "cause": result.cause}
     normal, friction = support_forces(result, rack)
     certificate = result.certificate
-    order = [result.system.labels.index(str(i)) for i in range(len(rack["nodes"]))]
     return {
         **out,
-        "displacements": (result.state.u + result.state.u_low)[order].tolist(),
+        "displacements": node_displacements(result).tolist(),
         "supports": [
             {"id": s["id"], "normal": float(n), "friction": f.tolist()}
             for s, n, f in zip(rack["supports"], normal, friction, strict=True)

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, NoReturn
 import click
 
 if TYPE_CHECKING:
-    from trunnion.arrays import Results
+    from trunnion.arrays import Results, System
     from trunnion.model import Model
 
 SOLVED, FAILED, BAD_INPUT, INTERNAL, INTERRUPTED, TERMINATED = 0, 1, 2, 3, 130, 143
@@ -56,32 +56,45 @@ def run(deck: Path, folder: Path, h5: bool, timings: bool) -> int:
     files = write_reports(results, model, folder, deck.stem, h5=h5)
     written = perf_counter()
     good, text = screen(results, model)
-    click.echo(text)
-    click.echo("wrote " + "  ".join(str(file) for file in files))
+    _say(text)
+    _say("wrote " + "  ".join(str(file) for file in files))
     if timings:
-        click.echo(
-            f"read {read - start:.3f} s, solve {solved - read:.3f} s, "
-            f"write {written - solved:.3f} s"
-        )
+        parts = {"read": read - start, "solve": solved - read, "write": written - solved}
+        _say(", ".join(f"{name} {seconds:.3f} s" for name, seconds in parts.items()))
     return SOLVED if good else FAILED
 
 
 @cli.command()
 @DECK
 def check(deck: Path) -> int:
-    """Read DECK and number its structure; solve and write nothing."""
+    """Read DECK, look for mechanisms and missing loads; solve and write nothing."""
+    from trunnion.loads import case_loads, load_sets
+    from trunnion.model import Case
     from trunnion.system import build_system
 
     model = _read(deck)
     system = build_system(model)
+    sets = load_sets(model, system)
+    for case in model.cases:
+        if isinstance(case, Case):
+            case_loads(model, system, case, sets)
+    _refuse_mechanisms(system)
     counts = (
         (len(system.labels), "nodes"),
         (len(system.parts), "elements"),
         (len(system.cards), "supports"),
         (len(model.cases), "cases"),
     )
-    click.echo(f"{deck.name}: no errors; " + ", ".join(f"{n} {what}" for n, what in counts))
+    _say(f"{deck.name}: no errors; " + ", ".join(f"{n} {what}" for n, what in counts))
     return SOLVED
+
+
+def _say(text: str) -> None:
+    """Print on stdout; a reader that has gone away (| head) changes nothing."""
+    try:
+        click.echo(text)
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _read(deck: Path) -> "Model":
@@ -95,6 +108,18 @@ def _solve(model: "Model") -> "Results":
 
     results: Results = trunnion.solve(model)
     return results
+
+
+def _refuse_mechanisms(system: "System") -> None:
+    """Refuse a structure that moves freely even with every contact closed."""
+    from trunnion.errors import ModelError, Problem
+    from trunnion.solver.ledger import Ledger
+    from trunnion.solver.mechanism import structural_motions
+    from trunnion.solver.structure import Structure
+
+    motions = structural_motions(Structure(system, Ledger()))
+    if motions:
+        raise ModelError([Problem("structure", motion.text) for motion in motions])
 
 
 def _check_places(deck: Path, folder: Path, h5: bool) -> None:
@@ -127,7 +152,6 @@ def _guarded(arguments: Sequence[str] | None) -> int:
 
     try:
         code = cli.main(arguments, prog_name="trunnion", standalone_mode=False)
-        sys.stdout.flush()
         return int(code or 0)
     except click.ClickException as error:
         error.show()
@@ -138,9 +162,6 @@ def _guarded(arguments: Sequence[str] | None) -> int:
     except (click.Abort, KeyboardInterrupt):
         click.echo("interrupted, nothing was written", err=True)
         return INTERRUPTED
-    except BrokenPipeError:  # the reader of our summary has gone; the files are whole
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return SOLVED
     except OSError as error:
         name = f"{error.filename}: " if error.filename else ""
         click.echo(f"{name}{error.strerror or error}", err=True)

@@ -110,6 +110,14 @@ def test_check_refuses_what_run_refuses(home, capsys):
     assert "b.inp:2: " in capsys.readouterr().err
 
 
+def test_check_names_what_moves(home, capsys):
+    loose = (home / "a.inp").read_text().replace("ANCHOR   10", "SUPPORT 10 X Y Z RX")
+    loose = loose.replace("+Y GUIDE GAP=50", "Y").replace("MU=0.3", "MU=0")
+    (home / "b.inp").write_text(loose)
+    assert trunnion_exit("check", "b.inp") == 2
+    assert "line 10-30 turns about Y" in capsys.readouterr().err
+
+
 def test_internal_error_exits_3_with_a_log_and_no_traceback(home, monkeypatch, capsys):
     def breaks(model):
         raise ZeroDivisionError("a number was zero")
@@ -141,15 +149,24 @@ def test_interruption_leaves_nothing_half_written(home, signal_, code):
         "from trunnion.cli import main\n"
         "main(['run', 'a.inp'])\n"
     )
-    process = subprocess.Popen(
-        [sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
-    )
-    assert process.stdout.readline() == "solving\n"
-    process.send_signal(signal_)
-    _, said = process.communicate(timeout=30)
+    pipes = dict.fromkeys(("stdout", "stderr"), subprocess.PIPE)
+    with subprocess.Popen([sys.executable, "-c", script], text=True, **pipes) as process:
+        assert process.stdout.readline() == "solving\n"
+        process.send_signal(signal_)
+        _, said = process.communicate(timeout=30)
     assert process.returncode == code
     assert "Traceback" not in said
     assert files(home) == ["a.inp"]
+
+
+def test_a_closed_pipe_changes_neither_messages_nor_code(home):
+    script = "import sys, trunnion.cli as cli; sys.stdin.read(); cli.main(['check', 'a.inp'])"
+    pipes = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.PIPE)
+    with subprocess.Popen([sys.executable, "-c", script], **pipes) as process:
+        process.stdout.close()
+        process.stdin.close()
+        said = process.stderr.read()
+    assert (process.returncode, said) == (0, b"")
 
 
 def test_interruption_while_writing_keeps_the_old_report(home, solves, monkeypatch):

@@ -183,3 +183,24 @@ def test_order_of_cards_that_carry_nothing_does_not_change_what_they_say():
     late = [line for line in lines if line.split()[0] in (*restraints, "BEND", "DEFAULT", "MASS")]
     rest = [line for line in lines if line not in late]
     assert read_text("\n".join([*rest, *late])) == read_text(EXAMPLE)
+
+
+def test_any_numbers_are_written_back_to_the_last_bit():
+    rng = random.Random(SEED)
+    keys = r"\b(D[XYZ]|[XY]|GAP|KF?|KR|T[12]|P1|ALPHA|DENSITY|WEIGHT|LOAD|K[XYZ]|KRZ|F[XY]|MX)="
+
+    def other(match):
+        value = rng.random() * 10.0 ** rng.randint(-9, 9)
+        return f"{match[1]}={value!r}" if match[1][0] != "T" else f"{match[1]}={value % 500!r}"
+
+    for length, force, pressure, temperature in (
+        *(("mm", "kN", "bar", "C"), ("in", "lbf", "psi", "F"), ("ft", "kgf", "MPa", "K")),
+        *(("m", "N", "Pa", "F"), ("cm", "lbf", "kPa", "K")),
+    ):
+        for _ in range(10):
+            lines = cards(EXAMPLE.replace("GAP=1,25", "GAP=1").replace("R=381 K=4.5", "R=900mm"))
+            lines[1] = f"UNITS {length} {force} {pressure} {temperature}"
+            lines = [re.sub(keys + r"[-0-9.e]+(?=\s|$)", other, line) for line in lines]
+            text = "\n".join(lines).replace("LINING", "! ")
+            model = read_text(text.replace("T2=-29", "T2=29"))
+            assert read_text(model.deck()) == model, f"seed {SEED}:\n{text}"

@@ -1,6 +1,8 @@
 """The HDF5 report is whole: the certificate can be judged again from it."""
 
+import re
 from io import BytesIO
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -35,6 +37,18 @@ def test_a_case_that_did_not_converge_has_no_numbers(file):
     assert case.attrs["cause"] == "friction cycles at 30 +Y"
     assert "state" not in case
     assert "support_force" not in case
+
+
+def test_every_place_of_the_file_is_documented(file):
+    text = (Path(__file__).parents[2] / "docs" / "hdf5_layout.md").read_text()
+    known = set(re.findall(r"`/?([^`]+)`", text))
+    known |= {word for place in known for word in place.split("/")}
+    names: list[str] = []
+    file["cases/OPE"].visit(names.append)
+    file["model"].visit(names.append)
+    groups = ("state/", "loads/", "stress/", "contacts/", "sliders/")  # as in the records named
+    tails = {name.split("/")[-1] for name in names if not name.startswith(groups)}
+    assert tails - known == set()
 
 
 def test_same_results_give_the_same_bytes_later(results, monkeypatch):

@@ -1,7 +1,9 @@
 """The JSON keeps its schema, its signs and its digits."""
 
 import json
+import re
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -142,3 +144,13 @@ def test_local_axes_turn_with_the_bend():
     local = local_forces(system, force)[bend]
     assert local[1] == pytest.approx([5, 0, 0, 0, -1, 0], abs=1e-12)
     assert local[0] == pytest.approx([0, 5, 0, 1, 0, 0], abs=1e-12)
+
+
+def test_every_key_of_the_file_is_documented(report):
+    text = (Path(__file__).parents[2] / "docs" / "json_layout.md").read_text()
+    known = {word for quoted in re.findall(r"`([^`]+)`", text) for word in quoted.split(".")}
+    case = report["cases"]["OPE"]
+    support = case["supports"][1]
+    found = {*report, *case, *support, *support["contacts"][0], *support["sliders"][0]}
+    found |= set(case["elements"][0])
+    assert found - known == set()

@@ -9,6 +9,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from trunnion.model import Direction
+
 OPE = {  # of the pipe on its supports: Fx, Fy [N], Mz [N.m] without sign
     "10": (-26600, -14050, 27000),
     "110": (26600, -14050, 27000),
@@ -44,6 +46,15 @@ def test_rest_in_the_middle_lifts_off(ope):
 
 def test_rest_in_the_middle_carries_when_cold(run):
     assert not run("b313_s302")["SUS"].is_open("50", "+Y")
+
+
+def test_rest_in_the_middle_would_have_to_pull(deck, solve):
+    model = deck("b313_s302")
+    tied = [
+        replace(s, directions=(Direction("Y"),)) if s.node == "50" else s for s in model.supports
+    ]
+    ope = solve(replace(model, supports=tied))["OPE"]
+    assert ope.support("50")[1] == pytest.approx(-10760, abs=5)  # independent rebuild: -10.76 kN
 
 
 @pytest.mark.parametrize("label", OPE)

@@ -50,7 +50,7 @@ def _are_load_sets(run: Context, record: Record, names: list[str], cases: set[st
             message = f"{name} is a case; CASE sums load sets, COMB sums results of cases"
             run.complain(record, message, name)
         elif name not in run.carried.broken:
-            run.complain(record, ex.unknown_set(name, cases), name)
+            run.miss(record, ex.unknown_set(name, cases), name)
     return not wrong
 
 

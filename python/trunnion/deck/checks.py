@@ -92,14 +92,13 @@ def _nodes(model: Model, broken: Set[str]) -> Iterator[Fault]:
     """Check that nodes on all other cards exist."""
     known = known_labels(model)
     uses: list[tuple[str, Place, str, Mark]] = []
-    uses += [(b.node, b.place, "BEND", b.node) for b in model.bends]
     uses += [(m.node, m.place, "MASS", m.node) for m in model.masses]
     uses += [(s.node, s.place, s.kind.upper(), s.node) for s in model.supports]
     uses += [(s.cnode, s.place, s.kind.upper(), "CNODE=") for s in model.supports if s.cnode]
     uses += [(d.node, d.place, "DISPLACEMENT", d.node) for d in model.displacements]
     uses += [(f.node, f.place, "FORCE", f.node) for f in model.forces]
     for label, place, word, mark in uses:
-        if label in known or label in broken or word == "BEND":
+        if label in known or not broken.isdisjoint((label, label[:-1])):
             continue
         if label[-1] in "NMF" and label[:-1] in known:
             why = f": {label[:-1]} is no bend"

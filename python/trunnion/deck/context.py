@@ -22,10 +22,13 @@ class Carried:
 class Context:
     """One model in the making; faults are collected, never raised."""
 
-    def __init__(self, model: Model, carried: Carried, faults: list[Fault]) -> None:
+    def __init__(
+        self, model: Model, carried: Carried, faults: list[Fault], whole: bool = True
+    ) -> None:
         self.model = model
         self.carried = carried
         self.faults = faults
+        self.whole = whole  # no card is missing because its file could not be read
         self.before = 0  # faults before the present record
 
     def keep(self, items: list[Any], item: Any) -> None:
@@ -36,6 +39,11 @@ class Context:
     def complain(self, record: Record, message: str, mark: Mark = None) -> None:
         """Note a fault of a record."""
         self.faults.append(Fault(record.place, record.head, message, mark))
+
+    def miss(self, record: Record, message: str, mark: Mark = None) -> None:
+        """Note that something is not defined, unless the card that does may be missing."""
+        if self.whole:
+            self.complain(record, message, mark)
 
     def give_up(self, record: Record) -> None:
         """Take note of a faulty record so that its names cause no further errors."""

@@ -30,7 +30,7 @@ def pipe(run: Context, record: Record) -> None:
     for what, name in (("section", carried.section), ("material", carried.material)):
         if name is None:
             word = what.upper()
-            run.complain(record, f"no {what}: write a {word} card before, or {word}=")
+            run.miss(record, f"no {what}: write a {word} card before, or {word}=")
             setattr(carried, what, "")  # told once
     if start == end:
         run.complain(record, f"both ends are node {end}", 2)
@@ -61,7 +61,7 @@ def _make_current(run: Context, record: Record) -> None:
             continue
         if name not in known and name not in carried.broken:
             hint = nearest(name, known)
-            run.complain(record, f"{key.lower()} {name} is not defined before{hint}", f"{key}=")
+            run.miss(record, f"{key.lower()} {name} is not defined before{hint}", f"{key}=")
         setattr(carried, key.lower(), name)
     if not keys.keys().isdisjoint(_OPERATION):
         carried.operation = changed(carried.operation, keys)

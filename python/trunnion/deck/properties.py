@@ -52,7 +52,8 @@ def material(run: Context, record: Record) -> None:
         )
     else:
         also = f"; no material {name} is defined before{nearest(name, known)}" if not keys else ""
-        run.complain(record, f"E= is missing (or GRADE=, a row of the library){also}")
+        missing = run.miss if not keys else run.complain
+        missing(record, f"E= is missing (or GRADE=, a row of the library){also}")
 
 
 def graded(name: str, keys: dict[str, Any]) -> Material:
@@ -85,7 +86,7 @@ def property_point(run: Context, record: Record) -> None:
     if known is None:
         if name not in run.carried.broken:
             hint = nearest(name, run.model.materials)
-            run.complain(record, f"material {name} is not defined before{hint}", name)
+            run.miss(record, f"material {name} is not defined before{hint}", name)
         return
     if "E" not in keys and "ALPHA" not in keys:
         run.complain(record, "E= or ALPHA= is missing")
@@ -168,7 +169,8 @@ def _size(run: Context, record: Record) -> tuple[float, float] | None:
     else:
         known, name = run.model.sections, record.args[0]
         also = f"; no section {name} is defined before{nearest(name, known)}" if not keys else ""
-        run.complain(record, f"OD= and WALL= are missing (or NPS= and SCH=){also}")
+        missing = run.miss if not keys else run.complain
+        missing(record, f"OD= and WALL= are missing (or NPS= and SCH=){also}")
     return None
 
 

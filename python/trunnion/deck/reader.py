@@ -54,15 +54,13 @@ class _Reading:
         self.model = Model()
         self.faults: list[Fault] = []
         self.carried = Carried()
-        self.context = Context(self.model, self.carried, self.faults)
+        self.context = Context(self.model, self.carried, self.faults, not deck.refusals)
 
     def run(self) -> None:
         """Read UNITS and DEFAULT, which hold for the whole deck, then all other cards."""
         cards = self.deck.cards
         words = [card.text.split(None, 1)[0].upper() for card in cards]
-        self._units(
-            [c for c, word in zip(cards, words, strict=True) if word in ("UNITS", "TITLE")], words
-        )
+        self._units(words)
         fields = fields_of(self.model.units)
         for card, word in zip(cards, words, strict=True):
             if word == "DEFAULT":
@@ -70,18 +68,17 @@ class _Reading:
         for card, word in zip(cards, words, strict=True):
             if word not in _FIRST:
                 self._card(card, word, fields)
-        broken = self.carried.broken
-        if self.deck.refusals:
-            return  # lines or files are missing: what needs the whole would be misleading
-        self.faults += check(self.model, broken)
         self.model.carried = self.carried
+        if not self.deck.refusals:  # else lines are missing, and more errors would mislead
+            self.faults += check(self.model, self.carried.broken)
 
-    def _units(self, cards: list[Card], words: list[str]) -> None:
+    def _units(self, words: list[str]) -> None:
         """Read the TITLE and UNITS cards; UNITS stands before all others."""
         seen: dict[str, Place] = {}
-        for card in cards:
-            word, _, rest = card.text.partition(" ")
-            word, rest = word.upper(), rest.strip()
+        for card, word in zip(self.deck.cards, words, strict=True):
+            if word not in ("TITLE", "UNITS"):
+                continue
+            rest = card.text[len(word) :].strip()
             if word in seen:
                 self._fault(card, word, f"there is one at {seen[word]} already", 0)
                 continue
@@ -90,10 +87,9 @@ class _Reading:
                 self.model.title = rest
             else:
                 self._unit_card(card, rest.split())
-        if "UNITS" in words and any(
-            w not in ("UNITS", "TITLE") for w in words[: words.index("UNITS")]
-        ):
-            card = self.deck.cards[words.index("UNITS")]
+        before = words[: words.index("UNITS")] if "UNITS" in words else []
+        if any(word not in ("UNITS", "TITLE") for word in before):
+            card = self.deck.cards[len(before)]
             self._fault(card, "UNITS", "this card must be the first but TITLE", 0)
 
     def _unit_card(self, card: Card, names: list[str]) -> None:
@@ -102,18 +98,14 @@ class _Reading:
         tables = (un.LENGTHS, un.FORCES, un.PRESSURES, un.TEMPERATURES)
         found: dict[str, str] = {}
         for i, (kind, table) in enumerate(zip(kinds, tables, strict=True)):
-            if i >= len(names):
-                self._fault(
-                    card, "UNITS", f"unit of {kind} missing: one of {' '.join(table)}", None
-                )
-                continue
             spelled = {name.lower(): name for name in table}
-            if names[i].lower() in spelled:
+            which = f"one of {' '.join(table)}"
+            if i >= len(names):
+                self._fault(card, "UNITS", f"unit of {kind} missing: {which}", None)
+            elif names[i].lower() in spelled:
                 found[kind] = spelled[names[i].lower()]
             else:
-                self._fault(
-                    card, "UNITS", f"{kind} {names[i]} is not one of {' '.join(table)}", i + 1
-                )
+                self._fault(card, "UNITS", f"{kind} {names[i]} is not {which}", i + 1)
         if len(names) > 4:
             self._fault(card, "UNITS", f"word {names[4]} is not expected; four units are", 5)
         self.model.units = Units(**found)

@@ -6,14 +6,14 @@ from itertools import groupby
 import numpy as np
 
 from trunnion.arrays import ARC, System
-from trunnion.model import Case, Model
+from trunnion.model import Case, Comb, Model
 from trunnion.report.columns import Column, integers, numbers, plain, section, table, words
 from trunnion.report.props import support_echo
 from trunnion.report.units import ReportUnits
 
 
-def input_echo(model: Model, system: System, units: ReportUnits) -> str:
-    """Print everything the answer depends on."""
+def input_echo(model: Model, system: System, texts: Mapping[str, str], units: ReportUnits) -> str:
+    """Print everything the answer depends on; `texts` are the sums of the cases by name."""
     return "".join(
         (
             _settings(model, units),
@@ -25,7 +25,7 @@ def input_echo(model: Model, system: System, units: ReportUnits) -> str:
             support_echo(model, system, units),
             _operations(model, units),
             _loads(model, units),
-            _cases(model),
+            _cases(model, texts),
         )
     )
 
@@ -239,34 +239,27 @@ def _six(kind: str, values: Sequence[Sequence[float]], units: ReportUnits) -> li
     ]
 
 
-def _cases(model: Model) -> str:
+def _cases(model: Model, texts: Mapping[str, str]) -> str:
     """Write every case as its card does."""
     text = section("LOAD CASES")
     width = max((len(case.name) for case in model.cases), default=0) + 2
     for case in model.cases:
-        text += f"  {case.name:<{width}}{case_words(model, case.name)}\n"
+        words = "  ".join([texts.get(case.name, ""), *_options(case)])
+        text += f"  {case.name:<{width}}{words}\n"
     return text
 
 
-def case_words(model: Model, name: str) -> str:
-    """Write a case as its card does."""
-    found = next((c for c in model.cases if c.name == name), None)
-    if not isinstance(found, Case):
-        return found.text if found is not None else ""
-    words = " ".join(
-        ("+" if t.factor >= 0 else "-")
-        + (f" {abs(t.factor):g}" if abs(t.factor) != 1 else "")
-        + f" {t.name}"
-        + (f"({','.join(f'{x:g}' for x in t.vector)})" if t.vector else "")
-        for t in found.terms
-    ).removeprefix("+ ")
+def _options(case: Case | Comb) -> list[str]:
+    """Keys of a CASE card that say more than nothing."""
+    if isinstance(case, Comb):
+        return []
     options = (
-        f"FROM={found.start}" if found.start else "",
-        f"STEPS={found.steps}" if found.steps != 1 else "",
-        f"MUX={found.mux:g}" if found.mux != 1.0 else "",
-        "E=HOT" if found.hot else "",
-        f"ITERATION={found.iteration}" if found.iteration else "",
-        "" if found.events is None else f"EVENTS={'ON' if found.events else 'OFF'}",
-        f"SNUBBERS={found.snubbers}" if found.snubbers else "",
+        f"FROM={case.start}" if case.start else "",
+        f"STEPS={case.steps}" if case.steps != 1 else "",
+        f"MUX={case.mux:g}" if case.mux != 1.0 else "",
+        "E=HOT" if case.hot else "",
+        f"ITERATION={case.iteration}" if case.iteration else "",
+        "" if case.events is None else f"EVENTS={'ON' if case.events else 'OFF'}",
+        f"SNUBBERS={case.snubbers}" if case.snubbers else "",
     )
-    return "  ".join([words, *filter(None, options)])
+    return [option for option in options if option]

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from trunnion.arrays import F8, I4, MINUS, PLUS, CaseResult
-from trunnion.report.encode import dump, listing, numbers, records, rows, words
+from trunnion.report.encode import listing, numbers, records, rows, words
 from trunnion.supports import (
     STATES,
     card_forces,
@@ -100,7 +100,7 @@ def _sliders(case: CaseResult) -> list[str]:
     return records(
         {
             "contacts": [
-                dump(local[sliders.contact[a:b]].tolist())
+                str(local[sliders.contact[a:b]].tolist()).replace(" ", "")
                 for a, b in zip(sliders.first[:-1], sliders.first[1:], strict=True)
             ],
             "state": words(STATES[i] for i in state.mode.tolist()),

@@ -64,7 +64,8 @@ def _blocks(cases: Sequence[CaseResult], force: F8, move: F8, units: ReportUnits
     for i, card in enumerate(cards):
         place = f"   line {card.line}" if card.line else ""
         out.append(f"  {card.name}{place}\n")
-        for name, state, values in zip(names, states[i], rows[i * per :], strict=False):
+        own = rows[i * per : i * per + n_case]
+        for name, state, values in zip(names, states[i], own, strict=True):
             out.append(row % (name, state or "", *values))
         if several:
             out.append(top % ("MAX", "", *rows[i * per + n_case][:6]))

@@ -31,7 +31,8 @@ def text_report(results: Results, model: Model) -> bytes:
     parts += [wrapped(f"{c.name}: {cause_of(c)}") for c in results.cases.values() if not is_good(c)]
     parts.append(warnings(results))
     parts.append(chapter("2  INPUT"))
-    parts.append(input_echo(model, _system(results), units))
+    texts = {name: case.text for name, case in results.cases.items()}
+    parts.append(input_echo(model, _system(results), texts, units))
     parts.append(chapter("3  LOADS ON RESTRAINTS"))
     parts.append(restraint_summary(good, units))
     parts.append(chapter("4  RESULTS BY CASE"))
@@ -41,7 +42,7 @@ def text_report(results: Results, model: Model) -> bytes:
     work = {name: case.work for name, case in results.cases.items()}
     parts.append(ledger_table(work | {"whole run": results.work}))
     parts.append(f"\n{'END OF REPORT':^{PAGE}}".rstrip() + "\n")
-    return "".join(parts).encode()
+    return "".join(parts).encode(errors="replace")
 
 
 def _system(results: Results) -> System:
