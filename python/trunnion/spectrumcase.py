@@ -6,7 +6,7 @@ from typing import Protocol
 
 import numpy as np
 
-from trunnion.arrays import F8, CaseResult, Certificate, Envelope, Loads, State, System
+from trunnion.arrays import BOTH, F8, CaseResult, Certificate, Envelope, Loads, State, System
 from trunnion.balance import local_forces
 from trunnion.errors import ModelError, Problem
 from trunnion.model import Case, Group, Shock, Spectrum, SpectrumUse
@@ -246,13 +246,13 @@ def _largest(
 
 
 def _state(system: System, found: dict[str, F8]) -> State:
-    """A state of largest values; open and closed, stick and slip mean nothing in it."""
+    """A state of largest values; the supports of a frozen structure all hold both ways."""
     n_contact, n_slider = len(system.contacts.k), len(system.sliders.mu)
     return State(
         u=found["u"],
         u_low=np.zeros_like(found["u"]),
         end_force=found["end_force"],
-        side=np.zeros(n_contact, np.int32),
+        side=np.full(n_contact, BOTH, np.int32),
         reaction=found["reaction"],
         friction=np.zeros((n_slider, 3)),
         mode=np.zeros(n_slider, np.int32),
