@@ -51,6 +51,24 @@ class Contacts:
     word: tuple[str, ...]
 
 
+def no_contacts() -> Contacts:
+    """An empty set of contacts."""
+    none = np.zeros(0, np.int32)
+    return Contacts(
+        node=none,
+        cnode=none,
+        card=none,
+        rotational=np.zeros(0, np.bool_),
+        dim=none,
+        normal=np.zeros((0, 2, 3)),
+        gap=np.zeros((0, 2)),
+        k=np.zeros(0),
+        penalty=np.zeros(0, np.bool_),
+        two_way=np.zeros(0, np.bool_),
+        word=(),
+    )
+
+
 @dataclass(frozen=True, slots=True)
 class Sliders:
     """One item a friction element: Coulomb sliding in a fixed line or plane.
@@ -111,6 +129,7 @@ class System:
     spring : (n_elem, 6) stiffnesses of springs, at mid-distance in `axes`; 0 elsewhere.
     od, wall : (n_elem,) pipe for stresses [m]; 0 for springs.
     up : unit vector against gravity.
+    snubbers : contacts that hold only where snubbers are locked; statics never see them.
     source : (n_elem,) index of Model.pipes whose properties hold; -1 for springs.
     mid : label of a bend's middle that is no node (30M) -> element whose middle it is.
     """
@@ -136,6 +155,7 @@ class System:
     up: F8
     source: I4
     mid: dict[str, int]
+    snubbers: Contacts = field(default_factory=no_contacts)
 
 
 @dataclass(frozen=True, slots=True)
@@ -217,6 +237,42 @@ class Certificate:
     inherited: bool = False
 
 
+@dataclass(frozen=True, slots=True)
+class FrozenBreak:
+    """A support for which the frozen contact state of a locked case does not hold.
+
+    `what` is "pulls" (amount: force [N, N m] that would have to pull) or "closes" (amount:
+    movement beyond the gap [m, rad]).
+    """
+
+    card: int
+    word: str
+    what: str
+    amount: float
+
+
+@dataclass(slots=True)
+class CycleResult:
+    """A loop of cases followed with committed datums.
+
+    `loops` were followed; `repeats` tells whether the last equals the one before.  The ranges
+    are (n_card, 6) support loads and (n_elem, 2, 6) end forces over the last loop; `one_shot`
+    those between the same cases solved each on its own.  `path` holds every step.
+    """
+
+    name: str
+    cases: tuple[str, ...]
+    loops: int
+    repeats: bool
+    change: float  # largest change of a support load between the last two loops, relative
+    supports: F8 | None = None
+    elements: F8 | None = None
+    one_shot_supports: F8 | None = None
+    one_shot_elements: F8 | None = None
+    path: list["CaseResult"] = field(default_factory=list)
+    cause: str | None = None
+
+
 @dataclass(slots=True)
 class CaseResult:
     """One case or combination.
@@ -244,6 +300,7 @@ class CaseResult:
     history: list[dict[str, object]] = field(default_factory=list)
     work: dict[str, int] = field(default_factory=dict)
     linear: bool = True  # False: a combination with ABS or of two moduli: no interior points
+    frozen_check: tuple[FrozenBreak, ...] = ()  # of a locked case: what its assumption breaks
 
     @property
     def displacements(self) -> "Table":
@@ -282,6 +339,7 @@ class Results:
     cases: dict[str, CaseResult]
     warnings: tuple[str, ...] = ()
     work: dict[str, int] = field(default_factory=dict)
+    cycles: dict[str, CycleResult] = field(default_factory=dict)
 
     def __getitem__(self, name: str) -> CaseResult:
         """Return the case called `name`."""

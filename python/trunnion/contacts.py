@@ -50,6 +50,7 @@ class Supports:
     contacts: Contacts
     sliders: Sliders
     cards: tuple[Card, ...]
+    snubbers: Contacts
 
 
 @dataclass(slots=True)
@@ -58,6 +59,7 @@ class _Lists:
     cnode: list[int] = field(default_factory=list)
     cards: list[Card] = field(default_factory=list)
     rows: list[Row] = field(default_factory=list)
+    snubbers: list[Row] = field(default_factory=list)
     slides: list[Slide] = field(default_factory=list)
     planes: dict[tuple[Vec, ...], list[Vec]] = field(default_factory=dict)
     words: dict[Direction, Row] = field(default_factory=dict)
@@ -89,7 +91,9 @@ def build_contacts(
             index[s.node],
             cnode,
         )
-        if s.kind == "support":
+        if s.kind == "snubber":
+            lists.snubbers += _snubber(s, card, model.settings)
+        elif s.kind == "support":
             try:
                 rows = _support(s, card, along, lists, model.settings)
             except ValueError as error:
@@ -101,12 +105,19 @@ def build_contacts(
             lists.rows += _fixed(s, card, model.settings, up)
     _held_nodes(model, index, lists)
     refuse(problems)
-    return Supports(_contacts(lists), _sliders(lists), tuple(lists.cards))
+    return Supports(
+        _contacts(lists, lists.rows),
+        _sliders(lists),
+        tuple(lists.cards),
+        _contacts(lists, lists.snubbers),
+    )
 
 
 def card_name(s: Support) -> str:
     """Name a card by its node and words: "20 +Y GUIDE", "10 ANCHOR"."""
     words = [d.word for d in s.directions] if s.kind == "support" else [s.kind.upper()]
+    if s.kind == "snubber":
+        words += [d.word for d in s.directions]
     return " ".join([s.node, *words])
 
 
@@ -128,6 +139,17 @@ def _support(
             if len(normals) == 2 and d.gap[0] != d.gap[1]:
                 raise ValueError(f"{d.word}: round a vertical pipe there is one radial gap")
         rows.append(Row(card, row.rotational, normals, *row[3:]))
+    return rows
+
+
+def _snubber(s: Support, card: int, settings: Settings) -> list[Row]:
+    """Two-way contacts that hold only where snubbers are locked."""
+    rows = []
+    for d in s.directions:
+        normal = AXES[WORDS.index(d.word)] if d.vector is None else unit(d.vector)
+        own = s.k if d.k is None else d.k
+        k = settings.k if own is None else own
+        rows.append(Row(card, False, (normal,), (0.0, 0.0), k, own is None, d.word))
     return rows
 
 
@@ -210,7 +232,10 @@ def _add_slides(s: Support, rows: list[Row], settings: Settings, lists: _Lists) 
 
 def _held_nodes(model: Model, index: dict[str, int], lists: _Lists) -> None:
     """Imposed displacements where no support stands on ground: the node itself is held."""
-    grounded = {n for n, c in zip(lists.node, lists.cnode, strict=True) if c < 0}
+    stands = [
+        c < 0 and card.kind != "snubber" for c, card in zip(lists.cnode, lists.cards, strict=True)
+    ]
+    grounded = {n for n, stand in zip(lists.node, stands, strict=True) if stand}
     given: dict[int, list[int]] = {}
     first: dict[int, Card] = {}
     for d in model.displacements:
@@ -228,8 +253,7 @@ def _held_nodes(model: Model, index: dict[str, int], lists: _Lists) -> None:
         ]
 
 
-def _contacts(lists: _Lists) -> Contacts:
-    rows = lists.rows
+def _contacts(lists: _Lists, rows: list[Row]) -> Contacts:
     card = np.array([r.card for r in rows], dtype=np.int32)
     gap = np.array([r.gap for r in rows], dtype=np.float64).reshape(-1, 2)
     normal = [(*r.normals, ZERO)[:2] for r in rows]

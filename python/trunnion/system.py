@@ -62,6 +62,7 @@ def _build(model: Model) -> System:
         parts=parts,
         contacts=supports.contacts,
         sliders=supports.sliders,
+        snubbers=supports.snubbers,
         cards=supports.cards,
         up=np.array(up),
         source=elements.source,

@@ -1,7 +1,5 @@
 """The convergence story of one case, an entry an iteration."""
 
-import numpy as np
-
 from trunnion.arrays import System
 from trunnion.solver.ledger import Ledger
 from trunnion.solver.structure import Response
@@ -15,7 +13,6 @@ class History:
     def __init__(self, system: System, ledger: Ledger) -> None:
         self.system, self.ledger = system, ledger
         self.records: list[dict[str, object]] = []
-        self.reversals = np.zeros(len(system.cards), np.int32)
         self.jumps = 0  # Aitken jumps of the status iteration
         self.frozen: list[str] = []
         self.notes: list[str] = []  # warnings about how the case was solved
@@ -26,10 +23,9 @@ class History:
         """Note one pass; `residual` is that before it."""
         contacts, sliders = self.system.contacts, self.system.sliders
         n, m = len(contacts.node), len(sliders.node)
-        turned = contacts.card[(before.side != after.side)[:n]]
-        switched = sliders.card[(before.mode != after.mode)[:m]]
-        changed = np.unique(np.concatenate((turned, switched)))
-        self.reversals[changed] += 1
+        turned = contacts.card[(before.side != after.side)[:n]].tolist()
+        switched = sliders.card[(before.mode != after.mode)[:m]].tolist()
+        changed = sorted({*turned, *switched})
         self.ledger.add(iterations=1)
         self.records.append(
             {

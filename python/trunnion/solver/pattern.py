@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from trunnion.arrays import I4, Contacts, Sliders
 
@@ -15,8 +16,8 @@ class Pattern:
 
     colptr : (6 n_node + 1,) first entry of each column.
     row : (nnz,) row of each entry, ascending in a column.
-    element_rank, contact_rank, slider_rank : place of the higher node among the neighbours of
-        the lower one, for items that join two nodes; 0 for items on ground.
+    element_rank, contact_rank, slider_rank, snubber_rank : place of the higher node among the
+        neighbours of the lower one, for items that join two nodes; 0 for items on ground.
     """
 
     colptr: I4
@@ -24,6 +25,7 @@ class Pattern:
     element_rank: I4
     contact_rank: I4
     slider_rank: I4
+    snubber_rank: I4
 
     @property
     def diagonal(self) -> I4:
@@ -31,18 +33,21 @@ class Pattern:
         return self.colptr[:-1]
 
 
-def build_pattern(n: int, ends: I4, contacts: Contacts, sliders: Sliders) -> Pattern:
-    """Pattern of all elements, contacts and sliders, open or closed."""
+def build_pattern(
+    n: int, ends: I4, contacts: Contacts, sliders: Sliders, snubbers: Contacts
+) -> Pattern:
+    """Pattern of all elements, contacts, sliders and snubbers, open or closed."""
     groups = (
         ends,
         np.column_stack((contacts.node, contacts.cnode)),
         np.column_stack((sliders.node, sliders.cnode)),
+        np.column_stack((snubbers.node, snubbers.cnode)),
     )
     pairs = np.concatenate(groups).astype(np.int64)
     low, high = pairs.min(axis=1), pairs.max(axis=1)
     joined = low >= 0  # ground is -1
     key = low * n + high
-    unique, inverse = np.unique(key[joined], return_inverse=True)
+    unique, inverse = _unique(key[joined])
     neighbours = np.bincount(unique // n, minlength=n)
     begin = np.concatenate(([0], np.cumsum(neighbours)))
     rank = np.zeros(len(pairs), np.int32)
@@ -50,6 +55,17 @@ def build_pattern(n: int, ends: I4, contacts: Contacts, sliders: Sliders) -> Pat
     colptr, row = _columns(n, neighbours, begin, unique % n)
     cut = np.cumsum([len(g) for g in groups])[:-1]
     return Pattern(colptr, row, *np.split(rank, cut))
+
+
+def _unique(key: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Sorted keys, each once, and where each key went (np.unique would import numpy.ma)."""
+    order = np.argsort(key, kind="stable")
+    ordered = key[order]
+    first = np.ones(len(key), np.bool_)
+    first[1:] = ordered[1:] != ordered[:-1]
+    inverse = np.empty(len(key), np.int64)
+    inverse[order] = np.cumsum(first) - 1
+    return ordered[first], inverse
 
 
 def _columns(

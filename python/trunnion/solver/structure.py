@@ -100,50 +100,93 @@ class Response:
     normal: F8
 
 
-class Structure:
-    """Kernel arrays of one `System`, analysed once, with one factor that is renewed on demand."""
+class Box:
+    """One analysed factor, shared by structures of the same pattern; `owner` filled it last."""
 
-    def __init__(self, system: System, ledger: Ledger) -> None:
+    def __init__(self) -> None:
+        self.spd: kernels.SpdFactor | None = None
+        self.owner: Structure | None = None
+        self.held: tuple[F8, F8, float] | None = None
+        self.rcond = 0.0
+
+
+class Structure:
+    """Kernel arrays of one `System`, analysed once, with one factor that is renewed on demand.
+
+    A structure with a `parent` is the same pipe on other supports (frozen contacts, locked
+    snubbers): it shares the parent's elements, pattern, symbolic analysis and factor.  `keep`
+    numbers its contacts among the contacts and then the snubbers of the parent's system.
+    """
+
+    def __init__(
+        self,
+        system: System,
+        ledger: Ledger,
+        parent: "Structure | None" = None,
+        keep: I4 | None = None,
+    ) -> None:
         self.system, self.ledger = system, ledger
         self.contacts, self.sliders = contacts_of(system), sliders_of(system)
         self.n_node = len(system.labels)
-        self.pattern = build_pattern(self.n_node, system.ends, self.contacts, self.sliders)
-        self._elements()
+        self.shifted = self.checked = False  # a singular tangent was met; it was looked into
+        self.keep = keep
+        if parent is None:
+            self.pattern = build_pattern(
+                self.n_node, system.ends, self.contacts, self.sliders, system.snubbers
+            )
+            self.box = Box()
+            self._elements()
+        else:
+            self._share(parent)
         self._supports()
         self._linear()
-        self._factor: kernels.SpdFactor | None = None
-        self.shifted = self.checked = False  # a singular tangent was met; it was looked into
-        self.held: tuple[F8, F8, float] | None = None  # tangents and shift in the factor
 
     def _elements(self) -> None:
-        s = self.system
+        s, p = self.system, self.pattern
         self.ends = np.ascontiguousarray(s.ends, np.int32)
         self.d = s.xyz[s.ends[:, 1]] - s.xyz[s.ends[:, 0]]
         self.form = np.column_stack((s.length, s.radius, s.angle))
         self.k = kernels.element_stiffness(
             s.kind, self.form, s.rigidity, s.flex, s.spring, s.axes, self.d
         )
-        self.ledger.add(elements=len(s.ends))
+        self.pipe = np.zeros(len(p.row))  # values of the elements alone
+        if len(self.ends):
+            kernels.assemble_elements(
+                self.k, s.axes, self.d, self.ends, p.element_rank, p.colptr, self.pipe
+            )
+        self.ledger.add(elements=len(s.ends), assemble=1)
+
+    def _share(self, parent: "Structure") -> None:
+        self.pattern, self.box = parent.pattern, parent.box
+        self.ends, self.d, self.form = parent.ends, parent.d, parent.form
+        self.k, self.pipe = parent.k, parent.pipe
+        self.parents = len(parent.system.contacts.node)
 
     def _supports(self) -> None:
         c, s = self.contacts, self.sliders
         p = self.pattern
+        rank = p.contact_rank if self.keep is None else self._kept_rank()
         offset = np.where(c.rotational, 3, 0)
-        at = np.column_stack((c.node, c.cnode, p.contact_rank, offset, c.dim, c.two_way))
+        at = np.column_stack((c.node, c.cnode, rank, offset, c.dim, c.two_way))
         self.at = np.ascontiguousarray(at, np.int32)
         zero = np.zeros_like(s.node)
-        at = np.column_stack((s.node, s.cnode, p.slider_rank, zero, zero, zero))
+        slider_rank = p.slider_rank if len(p.slider_rank) == len(s.node) else zero
+        at = np.column_stack((s.node, s.cnode, slider_rank, zero, zero, zero))
         self.slider_at = np.ascontiguousarray(at, np.int32)
         self.changes = not bool(c.two_way.all() and len(self.system.sliders.node) == 0)
+
+    def _kept_rank(self) -> I4:
+        """Places in the parent's pattern of the contacts that stand here."""
+        assert self.keep is not None
+        if not len(self.keep):
+            return np.zeros(1, np.int32)  # of the inert stand-in
+        parents = self.pattern.contact_rank[: self.parents]
+        return np.concatenate((parents, self.pattern.snubber_rank))[self.keep]
 
     def _linear(self) -> None:
         """Stiffness of everything that never changes; absent freedoms get a unit diagonal."""
         p, c = self.pattern, self.contacts
-        val = np.zeros(len(p.row))
-        if len(self.ends):
-            kernels.assemble_elements(
-                self.k, self.system.axes, self.d, self.ends, p.element_rank, p.colptr, val
-            )
+        val = self.pipe.copy()
         closed = np.einsum("c,cai,caj->cij", c.k, c.normal, c.normal)
         kernels.add_tangents(self.at, closed, 1, p.colptr, val)
         whole = val.copy()  # with everything closed and stuck
@@ -155,7 +198,16 @@ class Structure:
         self.closed_tangent, self.stuck_tangent = closed, stuck
         val[p.diagonal[self.absent.ravel()]] = 1.0
         self.val = val
-        self.ledger.add(assemble=1)
+
+    @property
+    def held(self) -> tuple[F8, F8, float] | None:
+        """Tangents and shift in the factor; None when it holds another structure's."""
+        return self.box.held if self.box.owner is self else None
+
+    @property
+    def rcond(self) -> float:
+        """Upper estimate of 1 / condition number of the factor."""
+        return self.box.rcond
 
     @cached_property
     def size(self) -> float:
@@ -302,30 +354,33 @@ class Structure:
             and np.array_equal(held[1], slider_tangent)
         ):
             return True
-        if self._factor is None:
-            self._factor = kernels.SpdFactor(self.pattern.colptr, self.pattern.row)
+        box = self.box
+        if box.spd is None:
+            box.spd = kernels.SpdFactor(self.pattern.colptr, self.pattern.row)
         val = self.val
         if self.changes:
             val = val.copy()
             kernels.add_tangents(self.at, tangent, 0, self.pattern.colptr, val)
             kernels.add_tangents(self.slider_at, slider_tangent, 0, self.pattern.colptr, val)
-        self.held = None
+        box.owner = None
         self.shifted |= shift > 0.0
         try:
-            self.rcond = self._factor.factorise(val, shift)
+            box.rcond = box.spd.factorise(val, shift)
         except NotPositiveDefiniteError:
             return False
         finally:
-            self.ledger.follow(self, self._factor.work)
-        self.held = (tangent, slider_tangent, shift)
+            self.ledger.follow(box, box.spd.work)
+        box.owner, box.held = self, (tangent, slider_tangent, shift)
         return True
 
     def solve(self, r: F8) -> F8:
         """Displacements (n_node, 6) of the factored stiffness under r; or (m, n_node, 6)."""
-        assert self._factor is not None
+        spd = self.box.spd
+        assert spd is not None
+        assert self.box.owner is self
         shape = r.shape
-        x = self._factor.solve(r.reshape(-1, 6 * self.n_node))
-        self.ledger.follow(self, self._factor.work)
+        x = spd.solve(r.reshape(-1, 6 * self.n_node))
+        self.ledger.follow(self.box, spd.work)
         return x.reshape(shape)
 
     def changing_product(self, response: Response, p: F8, r: F8) -> None:

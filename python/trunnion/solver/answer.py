@@ -1,0 +1,183 @@
+"""One case on one structure: solved, reported, certified, and accepted or refused."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from trunnion.arrays import F8, CaseResult, Certificate, Loads, System
+from trunnion.certificate import certify
+from trunnion.errors import ModelError, Problem
+from trunnion.solver.causes import explain
+from trunnion.solver.friction import Solved
+from trunnion.solver.history import History
+from trunnion.solver.mechanism import null_motions, structural_motions
+from trunnion.solver.newton import TINY_PIVOT
+from trunnion.solver.status import release
+from trunnion.solver.steps import Origin, Plan, solve_case
+from trunnion.solver.structure import Forcing, Point, Sliding, Structure
+from trunnion.solver.verdict import Reported, report_numbers
+
+PENALTY_WARNING = 1e-3
+FREEDOMS = ("X", "Y", "Z", "RX", "RY", "RZ")
+
+
+@dataclass(slots=True)
+class Question:
+    """A case made ready.  `place` is where its card stands, for errors."""
+
+    name: str
+    text: str
+    loads: Loads
+    plan: Plan
+    place: object = "cases"
+    warnings: tuple[str, ...] = ()
+
+
+def answer(
+    structure: Structure,
+    question: Question,
+    origin: Origin | None = None,
+    prepared: tuple[Point, Solved] | None = None,
+) -> tuple[CaseResult, Origin | None]:
+    """Solve a case and judge it; also give what later cases may start from.
+
+    Parameters
+    ----------
+    origin : where the case starts; None is the undeformed, unloaded pipe.
+    prepared : point and end of a linear case that was solved together with others.
+
+    Raises
+    ------
+    ModelError
+        The structure moves freely with every contact closed, or a load acts where nothing
+        resists.
+    """
+    forcing = forcing_of(structure, question)
+    history = History(structure.system, structure.ledger)
+    result = CaseResult(
+        name=question.name,
+        kind="case",
+        text=question.text,
+        system=structure.system,
+        loads=question.loads,
+        state=None,
+        converged=False,
+        warnings=question.warnings,
+        history=history.records,
+    )
+    start = origin or at_rest(structure)
+    try:
+        end = _solve(structure, question, forcing, start, history, result, prepared)
+    finally:
+        release(structure)
+    result.frozen = tuple(history.frozen)
+    result.work = {"aitken": history.jumps}
+    return result, end
+
+
+def at_rest(structure: Structure) -> Origin:
+    """The undeformed, unloaded start."""
+    datum = np.zeros((len(structure.sliders.mu), 3))
+    return Origin(structure.still, Point.zero(structure.n_node), datum)
+
+
+def forcing_of(structure: Structure, question: Question) -> Forcing:
+    """Kernel loads of a case; an error where a load acts on a freedom that does not exist."""
+    forcing = structure.forcing(question.loads)
+    loose = np.argwhere(structure.absent & (forcing.nodal != 0.0))
+    if len(loose):
+        raise ModelError(
+            [
+                Problem(
+                    question.place,
+                    f"CASE {question.name}: node {structure.system.labels[i]} is loaded in "
+                    f"{FREEDOMS[j]}, where nothing resists",
+                )
+                for i, j in loose
+            ]
+        )
+    return forcing
+
+
+def refuse_mechanisms(structure: Structure) -> None:
+    """Raise for a structure that moves freely even with every contact closed."""
+    held = structure.held
+    poor = held is not None and not (held[2] == 0.0 and structure.rcond > TINY_PIVOT)
+    if structure.checked or not (structure.shifted or poor):
+        return
+    structure.checked = True
+    motions = structural_motions(structure)
+    if motions:
+        raise ModelError([Problem("structure", motion.text) for motion in motions])
+
+
+def _solve(
+    structure: Structure,
+    question: Question,
+    forcing: Forcing,
+    start: Origin,
+    history: History,
+    result: CaseResult,
+    prepared: tuple[Point, Solved] | None,
+) -> Origin | None:
+    if prepared is None:
+        point, solved = solve_case(structure, forcing, start, question.plan, history)
+        refuse_mechanisms(structure)
+    else:
+        point, solved = prepared
+    if not solved.settled:
+        s = structure.sliders
+        law = Sliding(solved.sliding.capacity, s.kf, s.mu * forcing.mux, start.datum)
+        result.cause = explain(structure, law, forcing, solved, history)
+        return None
+    reported = report_numbers(structure, point, solved.sliding, forcing)
+    result.certificate = certify(
+        structure.system,
+        question.loads,
+        reported.state,
+        correction_u=reported.correction_u,
+        correction_r=reported.correction_r,
+    )
+    if reported.broken or not result.certificate.passed:
+        result.cause = reported.broken or refusal(result.certificate)
+        return None
+    result.state, result.converged = reported.state, True
+    result.penalty_u, result.penalty_r = reported.penalty_u, reported.penalty_r
+    result.penalty_effect = reported.penalty_effect
+    result.warnings += tuple(history.notes) + _remarks(structure, reported)
+    return Origin(forcing, point, _all_sliders(structure, reported.state.datum_end))
+
+
+def refusal(certificate: Certificate) -> str:
+    """Why a certificate did not pass."""
+    return f"certificate: {certificate.where} is {certificate.worst:.3g}, above 1e-9"
+
+
+def _all_sliders(structure: Structure, datum: F8) -> F8:
+    out = np.zeros((len(structure.sliders.mu), 3))
+    out[: len(datum)] = datum
+    return out
+
+
+def _remarks(structure: Structure, reported: Reported) -> tuple[str, ...]:
+    remarks = []
+    effect = max(reported.penalty_effect.values(), default=0.0)
+    if effect > PENALTY_WARNING:
+        remarks.append(
+            f"rigid supports would change the answer by {100 * effect:.2g} % (penalty effect)"
+        )
+    held = structure.held
+    if reported.singular and held is not None:
+        motions = null_motions(structure, held[0], held[1])
+        remarks += [f"undetermined: {motion.text.split(':')[0]}" for motion in motions]
+    return tuple(remarks) + _pushing_hangers(structure.system, reported)
+
+
+def _pushing_hangers(system: System, reported: Reported) -> tuple[str, ...]:
+    c = system.contacts
+    return tuple(
+        f"{card.name} pushes down: a hanger can only pull"
+        for i, card in enumerate(system.cards)
+        if card.kind == "hanger"
+        and float((reported.state.reaction[c.card == i] @ system.up).sum()) < 0.0
+    )
