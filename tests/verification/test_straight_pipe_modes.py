@@ -31,7 +31,7 @@ PRINTED = [
 def modes(model, n, **how):
     system = build_system(model)
     card = Modes(n=n, mass="CONSISTENT", rotary=False, **how)
-    return modes_of(system, model_masses(model, system), card, Ledger())
+    return modes_of(system, model_masses(model, system), card, Ledger())[0]
 
 
 @pytest.fixture(scope="module")

@@ -11,6 +11,7 @@ from trunnion.solver.ledger import Ledger
 from trunnion.solver.locked import joined
 from trunnion.solver.mesh import Mesh, refine_system, whole_mesh
 from trunnion.solver.modes import natural_modes
+from trunnion.solver.pencil import Pencil
 from trunnion.solver.structure import Structure
 
 FIRST_CUT = 33.0  # Hz, the mesh where the card states no FMAX: the end of earthquakes
@@ -24,8 +25,8 @@ def modes_of(
     ledger: Ledger,
     parent: Structure | None = None,
     keep: I4 | None = None,
-) -> ModeSet:
-    """Natural modes of a system whose contacts are two-way springs.
+) -> tuple[ModeSet, Pencil]:
+    """Natural modes of a system whose contacts are two-way springs, and their K and M.
 
     Without FMAX the mesh follows the highest frequency found.
 
@@ -41,23 +42,16 @@ def modes_of(
             structure = Structure(mesh.system, ledger)
         else:
             structure = Structure(frozen, ledger, parent, keep)
-        found = natural_modes(
-            structure,
-            masses.parted(mesh.part_of, len(mesh.system.labels)),
-            card.n,
-            fmax=card.fmax,
-            lumped=card.mass == "LUMPED",
-            rotary=card.rotary,
-            mesh=mesh,
-            place=card.place,
-        )
+        inner = masses.parted(mesh.part_of, len(mesh.system.labels))
+        pencil = Pencil(structure, inner, lumped=card.mass == "LUMPED", rotary=card.rotary)
+        found = natural_modes(pencil, card.n, fmax=card.fmax, mesh=mesh, place=card.place)
         highest = float(found.frequency.max(initial=0.0))
         if card.fmax is not None or highest <= cut or card.mesh == "NONE":
             break
         cut = 1.2 * highest
         if _mesh(frozen, masses, card, cut).added == mesh.added:
             break
-    return found
+    return found, pencil
 
 
 def _mesh(frozen: System, masses: Masses, card: Modes, cut: float) -> Mesh:

@@ -6,11 +6,9 @@ import numpy as np
 
 from trunnion.arrays import F8, ModeSet
 from trunnion.errors import ModelError, Problem
-from trunnion.masses import Masses
 from trunnion.solver.eigen import correct, few, many, separate
 from trunnion.solver.mesh import Mesh, whole_mesh
 from trunnion.solver.pencil import DENSE, Pencil
-from trunnion.solver.structure import Structure
 
 SPARE = 3  # modes beyond those asked for, to find a gap behind them
 ROUNDS = 8
@@ -20,13 +18,10 @@ FREEDOMS = ("X", "Y", "Z", "RX", "RY", "RZ")
 
 
 def natural_modes(
-    structure: Structure,
-    masses: Masses,
+    pencil: Pencil,
     n: int,
     *,
     fmax: float | None = None,
-    lumped: bool = True,
-    rotary: bool = True,
     mesh: Mesh | None = None,
     place: object = "modes",
 ) -> ModeSet:
@@ -34,9 +29,6 @@ def natural_modes(
 
     Parameters
     ----------
-    lumped : half of every element's mass at its ends, else consistent with its static shapes.
-    rotary : with the sections' rotary inertia.  Without it lumped masses only translate;
-        consistent ones keep the inertia about the pipe's axis, without which it has no torsion.
     mesh : how the structure's elements came from the model's.
     place : of the MODES card, for errors.
 
@@ -45,9 +37,7 @@ def natural_modes(
     ModelError
         More modes than the mass matrix has rank, or a motion without stiffness and mass.
     """
-    if not rotary:
-        masses = masses.without_rotary(torsion=not lumped)
-    pencil = Pencil(structure, masses, lumped=lumped)
+    structure = pencil.structure
     rank = mass_rank(pencil)
     if n > rank:
         text = (

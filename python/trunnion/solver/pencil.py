@@ -25,12 +25,22 @@ class Pencil:
     """Stiffness and mass of a structure whose contacts are all two-way springs.
 
     Vectors are rows (m, n_dof).  K is formed from deformations where digits matter.
+
+    Parameters
+    ----------
+    lumped : half of every element's mass at its ends, else consistent with its static shapes.
+    rotary : with the sections' rotary inertia.  Without it lumped masses only translate;
+        consistent ones keep the inertia about the pipe's axis, without which it has no torsion.
     """
 
-    def __init__(self, structure: Structure, masses: Masses, *, lumped: bool) -> None:
+    def __init__(
+        self, structure: Structure, masses: Masses, *, lumped: bool, rotary: bool = True
+    ) -> None:
         p, s = structure.pattern, structure.system
         assert s.contacts.two_way.all()
         assert not len(s.sliders.node)
+        if not rotary:
+            masses = masses.without_rotary(torsion=not lumped)
         self.structure = structure
         self.mass = np.zeros(len(p.row))
         if len(structure.ends):
