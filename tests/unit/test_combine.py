@@ -145,5 +145,5 @@ def test_parents_are_named_once():
 
 
 def test_unknown_word_is_an_error():
-    with pytest.raises(KeyError, match="srss"):
-        evaluate(("srss", OPE), {"OPE": None})
+    with pytest.raises(KeyError, match="mean"):
+        evaluate(("mean", OPE), {"OPE": None})
