@@ -8,7 +8,7 @@ module assembly
    use kinds, only: ip, wp
    implicit none (type, external)
    private
-   public :: add_contact, add_element, add_pair_3
+   public :: add_contact, add_element, add_pair, add_pair_3
 
 contains
 
@@ -31,14 +31,23 @@ contains
       k12(4:6, :) = matmul(transpose(s), k(1:3, :)) - k(4:6, :)
       k11(:, 1:3) = -k12(:, 1:3)
       k11(:, 4:6) = matmul(k12(:, 1:3), s) - k12(:, 4:6)
+      call add_pair(k11, k12, k, ends, rank, colptr, val)
+   end subroutine add_element
+
+   !> Add the blocks of a symmetric 12 by 12 of two nodes.
+   pure subroutine add_pair(k11, k12, k22, ends, rank, colptr, val)
+      real(wp), intent(in) :: k11(6, 6), k12(6, 6), k22(6, 6)
+      integer(ip), intent(in) :: ends(2), rank, colptr(:)   !! as in `add_element`
+      real(wp), intent(inout) :: val(:)
+
       call add_diagonal(k11, ends(1), colptr, val)
-      call add_diagonal(k, ends(2), colptr, val)
+      call add_diagonal(k22, ends(2), colptr, val)
       if (ends(1) > ends(2)) then
          call add_block(k12, ends(2), rank, colptr, val)
       else
          call add_block(transpose(k12), ends(1), rank, colptr, val)
       end if
-   end subroutine add_element
+   end subroutine add_pair
 
    !> Add a 3 by 3 contact stiffness between a node and its cnode (or ground, -1).
    pure subroutine add_contact(k, offset, node, cnode, rank, colptr, val)

@@ -138,8 +138,8 @@ def _solve(
         correction_u=reported.correction_u,
         correction_r=reported.correction_r,
     )
-    if not result.certificate.passed:
-        result.cause = refusal(result.certificate)
+    if reported.broken or not result.certificate.passed:
+        result.cause = reported.broken or refusal(result.certificate)
         return None
     result.state, result.converged = reported.state, True
     result.penalty_u, result.penalty_r = reported.penalty_u, reported.penalty_r

@@ -9,6 +9,8 @@ class Ledger:
     analyse, factorise, solve : CHOLMOD calls (a solve is one right-hand side).
     refine : solves of the final refinement and certificate, a share of `solve` kept apart.
     elements : element evaluations; assemble : assemblies of K; iterations : passes.
+    Counts of natural modes stand there only once there are any: mass (assemblies of M),
+    inertia (factorisations that count eigenvalues).
     """
 
     NAMES = ("analyse", "factorise", "solve", "refine", "elements", "assemble", "iterations")
@@ -21,14 +23,16 @@ class Ledger:
     def add(self, **more: int) -> None:
         """Add to named counts."""
         for name, n in more.items():
-            self.count[name] += n
+            self.count[name] = self.count.get(name, 0) + n
 
     def follow(self, owner: object, work: SpdWork) -> None:
         """Take over what the factor of `owner` has done since last time."""
-        seen = self._seen.get(id(owner), SpdWork(0, 0, 0))
+        seen = self._seen.get(id(owner), SpdWork(0, 0, 0, 0))
         self.count["analyse"] += work.analyse - seen.analyse
         self.count["factorise"] += work.factorise - seen.factorise
         self.count["refine" if self.refining else "solve"] += work.solve - seen.solve
+        if work.inertia > seen.inertia:
+            self.add(inertia=work.inertia - seen.inertia)
         self._seen[id(owner)] = work
 
     def snapshot(self) -> dict[str, int]:
@@ -37,4 +41,4 @@ class Ledger:
 
     def since(self, before: dict[str, int]) -> dict[str, int]:
         """Counts since a snapshot."""
-        return {name: n - before[name] for name, n in self.count.items()}
+        return {name: n - before.get(name, 0) for name, n in self.count.items()}

@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from trunnion.arrays import F8, State
+from trunnion.solver.convergence import judge
 from trunnion.solver.coupled import coupled_step
 from trunnion.solver.newton import tangent_factor
 from trunnion.solver.structure import Forcing, Point, Response, Sliding, Structure
@@ -27,6 +28,7 @@ class Reported:
     penalty_r: F8
     penalty_effect: dict[str, float]
     singular: bool  # the tangent at the answer needed a proximal term
+    broken: str | None  # the convergence rule that the last two iterations do not meet
 
 
 def report_numbers(
@@ -37,7 +39,7 @@ def report_numbers(
     structure.ledger.refining = True
     try:
         r, end, response = structure.residual(point, law, forcing)
-        best = np.inf
+        best = (np.inf, np.inf)
         shift = 0.0
         for i in range(REFINEMENTS):
             shift = max(shift, _factor(structure, response))
@@ -46,16 +48,19 @@ def report_numbers(
             trial.move(p)
             after = structure.residual(trial, law, forcing)
             left = corrections(structure, p, point, response, after[2])
-            if max(left) >= best or max(left) <= SHARP or i == REFINEMENTS - 1:
+            # a reaction is a difference of displacements: it may lag behind them by one pass
+            better = any(new < old for new, old in zip(left, best, strict=True))
+            if not better or max(left) <= SHARP or i == REFINEMENTS - 1:
                 break
-            best = max(left)
+            best = left
             point.u[:], point.low[:] = trial.u, trial.low
             r, end, response = after
+        broken = judge(response, after[2], p, None, point.u).broken
         penalty_u, penalty_r, effect = _penalty(structure, point, response)
     finally:
         structure.ledger.refining = False
     state = _state(structure, point, law, response, end)
-    return Reported(state, *left, penalty_u, penalty_r, effect, singular=shift > 0.0)
+    return Reported(state, *left, penalty_u, penalty_r, effect, shift > 0.0, broken)
 
 
 def _factor(structure: Structure, response: Response) -> float:
