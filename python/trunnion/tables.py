@@ -10,7 +10,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from trunnion.arrays import F8, CaseResult, CycleResult, Part, Results, System
+from trunnion.arrays import F8, Card, CaseResult, CycleResult, Part, Results, System
 from trunnion.balance import local_end_forces
 from trunnion.interior import mid_of_bend
 from trunnion.names import UnknownName
@@ -114,8 +114,7 @@ def supports(case: CaseResult) -> Table:
     values = np.column_stack([force, card_normals(case), friction])
     units = ("N",) * 3 + ("N m",) * 3 + ("N",) * 4
     ids = card_ids(cards)
-    names = {card.name.upper(): i for i, card in reversed(list(enumerate(cards)))}
-    return Table(ids, columns, units, values, words, names | _index(ids))
+    return Table(ids, columns, units, values, words, _card_index(cards))
 
 
 def elements(case: CaseResult) -> Table:
@@ -160,9 +159,8 @@ def envelope(results: Results) -> Table:
             words[f"{component}_{end}_case"] = [names[j] for j in which[:, i].tolist()]
     columns = tuple(f"{component}_{end}" for end in ("max", "min") for component in FORCES)
     units = (("N",) * 3 + ("N m",) * 3) * 2
-    ids = card_ids(cards)
     values = np.concatenate([found.highest, found.lowest], axis=1)
-    return Table(ids, columns, units, values, words, _index(ids))
+    return Table(card_ids(cards), columns, units, values, words, _card_index(cards))
 
 
 def support_ranges(cycle: CycleResult) -> Table:
@@ -172,13 +170,14 @@ def support_ranges(cycle: CycleResult) -> Table:
     """
     cards = _system_of(cycle).cards
     words: Words = {"name": [card.name for card in cards]}
-    return _ranges(card_ids(cards), words, cycle.supports, cycle.one_shot_supports, ("",))
+    ids, index = card_ids(cards), _card_index(cards)
+    return _ranges(ids, index, words, cycle.supports, cycle.one_shot_supports, ("",))
 
 
 def element_ranges(cycle: CycleResult) -> Table:
     """Range of the end forces over a cycle, global, beside that of the cases on their own."""
     ids = element_ids(_system_of(cycle).parts)
-    return _ranges(ids, {}, cycle.elements, cycle.one_shot_elements, ("_from", "_to"))
+    return _ranges(ids, _index(ids), {}, cycle.elements, cycle.one_shot_elements, ("_from", "_to"))
 
 
 def _system_of(cycle: CycleResult) -> System:
@@ -188,7 +187,12 @@ def _system_of(cycle: CycleResult) -> System:
 
 
 def _ranges(
-    ids: Sequence[str], words: Words, loop: F8 | None, alone: F8 | None, ends: Sequence[str]
+    ids: Sequence[str],
+    index: Mapping[str, int],
+    words: Words,
+    loop: F8 | None,
+    alone: F8 | None,
+    ends: Sequence[str],
 ) -> Table:
     assert loop is not None
     once = np.full(loop.shape, np.nan) if alone is None else alone
@@ -202,13 +206,17 @@ def _ranges(
     parts = [part.reshape(n, -1) for part in (loop, once, range_ratio(loop, once))]
     units = ("N",) * 3 + ("N m",) * 3
     both = units * (2 * len(ends)) + ("",) * (6 * len(ends))
-    return Table(
-        tuple(ids), tuple(columns), both, np.concatenate(parts, axis=1), words, _index(ids)
-    )
+    return Table(tuple(ids), tuple(columns), both, np.concatenate(parts, axis=1), words, index)
 
 
 def _index(labels: Sequence[str]) -> dict[str, int]:
     return {label: i for i, label in enumerate(labels)}
+
+
+def _card_index(cards: Sequence[Card]) -> dict[str, int]:
+    """Rows of support cards by id and by name; the first of a name has it."""
+    names = {card.name.upper(): i for i, card in reversed(list(enumerate(cards)))}
+    return names | _index(card_ids(cards))
 
 
 def element_ids(parts: Sequence[Part]) -> tuple[str, ...]:
