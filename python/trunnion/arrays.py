@@ -288,6 +288,12 @@ class Gathered:
     section_force: F8 | None = None
 
 
+def sizes(card_force: F8, local_force: F8) -> Gathered:
+    """Largest values without signs (a response spectrum): the same for whoever looks at them."""
+    normal = card_force[:, :3]
+    return Gathered(card_force, normal, np.zeros_like(normal), card_force, local_force, local_force)
+
+
 @dataclass(slots=True)
 class CycleResult:
     """A loop of cases followed with committed datums.

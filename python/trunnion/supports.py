@@ -41,15 +41,21 @@ def gathered(case: CaseResult) -> Gathered:
     s, state = case.system, case.state
     if state is None:
         raise ValueError(f"case {case.name} has no numbers")
-    total, friction = np.zeros((len(s.cards), 6)), np.zeros((len(s.cards), 3))
-    turning = s.contacts.rotational
-    pushes = np.where(turning[:, None], 0.0, state.reaction)
-    np.add.at(total[:, :3], s.contacts.card, pushes)
-    np.add.at(total[:, 3:], s.contacts.card[turning], state.reaction[turning])
+    total, friction = contact_sums(s, state.reaction), np.zeros((len(s.cards), 3))
     normal = total[:, :3].copy()
     np.add.at(total[:, :3], s.sliders.card, state.friction)
     np.add.at(friction, s.sliders.card, state.friction)
     return Gathered(total, normal, friction)
+
+
+def contact_sums(s: System, reaction: F8) -> F8:
+    """(n_card, 6) forces and moments of contacts (n_contact, 3), added up for each card."""
+    total = np.zeros((len(s.cards), 6))
+    turning = s.contacts.rotational
+    pushes = np.where(turning[:, None], 0.0, reaction)
+    np.add.at(total[:, :3], s.contacts.card, pushes)
+    np.add.at(total[:, 3:], s.contacts.card[turning], reaction[turning])
+    return total
 
 
 def card_forces(case: CaseResult) -> F8:
