@@ -1,6 +1,5 @@
 """Response spectrum cases: from modes and shocks to displacements, forces and support loads."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -12,15 +11,16 @@ from trunnion.arrays import (
     F8,
     CaseResult,
     Certificate,
-    Envelope,
     Item,
     Loads,
     ModeSet,
     State,
     System,
+    sizes,
 )
 from trunnion.errors import ModelError, Problem
 from trunnion.model import Case, Group, Model, Shock, SpectrumUse
+from trunnion.solver.pencil import Pencil
 from trunnion.solver.spectrum import Drive, amplitudes, combine, missed, zero_period
 from trunnion.solver.structure import Structure
 from trunnion.solver.supportmotion import (
@@ -34,7 +34,7 @@ from trunnion.solver.supportmotion import (
 
 AXES = {"X": 0, "Y": 1, "Z": 2}
 NAMES = ("u", "end_force", "local_force", "reaction", "card_force")
-RESIDUAL = 1e-6  # of a mode whose forces may be reported
+RESIDUAL = 1e-9  # of a mode whose forces may be reported
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,15 +51,18 @@ class SpectrumPass:
     """The response spectrum cases of a run: they share modes, and the forces of their shapes.
 
     system : the frozen system of the model, without the extra nodes of the modes.
-    structure : of the modes' own system.
-    inertia : M x for displacements x (n_node, 6) of that system; called for missing mass only.
+    pencil : stiffness and mass of the modes' own system.
     """
 
     model: Model
     system: System
     modes: ModeSet
-    structure: Structure
-    inertia: Callable[[F8], F8]
+    pencil: Pencil
+
+    @property
+    def structure(self) -> Structure:
+        """The structure of the modes."""
+        return self.pencil.structure
 
     @cached_property
     def shapes(self) -> Answers:
@@ -87,7 +90,7 @@ class SpectrumPass:
         certificate = mode_certificate(self.modes)
         return CaseResult(
             name=case.name,
-            kind="case",
+            kind="spectrum",
             text=spectrum_text(use),
             system=self.system,
             loads=_no_loads(self.system),
@@ -97,7 +100,7 @@ class SpectrumPass:
             certificate=certificate,
             warnings=_warnings(self.modes),
             linear=False,
-            envelope=Envelope(found["local_force"], found["card_force"]),
+            gathered=sizes(found["card_force"], found["local_force"]),
         )
 
     def _push(self, case: Case, shock: Shock) -> Push:
@@ -120,7 +123,7 @@ class SpectrumPass:
             shock, modes = push.shock, self.modes
             r = influence(self.structure, push.moves, AXES[shock.direction])
             hold(self.structure)
-            rigid = self.structure.solve(self.inertia(r)).ravel()
+            rigid = self.structure.solve(self.pencil.mass_product(r.reshape(1, -1))).ravel()
             flat = modes.shape.reshape(len(modes.shape), -1)
             zpa = zero_period(shock, self.model.spectra[shock.spectrum], use.zpa)
             part = missed(rigid, flat, modes.frequency, push.participation, zpa)

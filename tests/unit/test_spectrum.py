@@ -9,8 +9,10 @@ from trunnion.arrays import ModeSet
 from trunnion.balance import local_forces
 from trunnion.deck.reader import read_text
 from trunnion.errors import ModelError
+from trunnion.masses import Masses
 from trunnion.model import Case, Group, Model, Shock, Spectrum, SpectrumUse
 from trunnion.solver.ledger import Ledger
+from trunnion.solver.pencil import Pencil
 from trunnion.solver.spectrum import acceleration
 from trunnion.solver.structure import Structure
 from trunnion.solver.supportmotion import hold, influence, moving, participation, recover
@@ -56,24 +58,22 @@ SPECTRA = {"FLAT": FLAT, "HALF": HALF}
 class Scene:
     """A structure that carries one mass at node 20: a mode a direction."""
 
-    structure: Structure
+    pencil: Pencil
     modes: ModeSet
     flexibility: np.ndarray  # (3,) of the mass in X, Y, Z [m/N]
 
+    @property
+    def structure(self):
+        return self.pencil.structure
+
     def node(self, label):
         return self.structure.system.labels.index(label)
-
-    def inertia(self, r):
-        force = np.zeros_like(r)
-        at = self.node("20")
-        force[at, :3] = MASS * r[at, :3]
-        return force
 
     def solve(self, *shocks, groups=(), modes=None, **use):
         """Solve one case."""
         model = Model(spectra=SPECTRA, groups=list(groups))
         modes = modes or self.modes
-        cases = SpectrumPass(model, self.structure.system, modes, self.structure, self.inertia)
+        cases = SpectrumPass(model, self.structure.system, modes, self.pencil)
         return cases.solve(Case("RS", (), spectrum=SpectrumUse(tuple(shocks), **use)))
 
 
@@ -107,7 +107,11 @@ def scene(deck):
         proven=True,
         counted=np.inf,
     )
-    return Scene(structure, modes, np.diag(moved[:, at, :3]))
+    lump = np.zeros(structure.n_node)
+    lump[at] = MASS
+    n = len(every)
+    pencil = Pencil(structure, Masses(np.zeros(n), np.zeros((n, 2)), lump), lumped=True)
+    return Scene(pencil, modes, np.diag(moved[:, at, :3]))
 
 
 def some(modes, keep):
@@ -157,9 +161,9 @@ def test_one_mass_in_closed_form(cantilever):
     tip = result.state.u[cantilever.node("20")]
     assert tip[1] == pytest.approx(3.0 * MASS * c, rel=1e-10)
     force = np.array([0.0, 3.0 * MASS, 0.0, 0.0, 0.0, 3.0 * MASS * L])
-    for found in (result.state.end_force[0, 0], result.envelope.local_force[0, 0]):
+    for found in (result.state.end_force[0, 0], result.gathered.local_force[0, 0]):
         assert found == pytest.approx(force, rel=1e-9, abs=1e-9)
-    assert result.envelope.card_force[0] == pytest.approx(force, rel=1e-9, abs=1e-9)
+    assert result.gathered.card_force[0] == pytest.approx(force, rel=1e-9, abs=1e-9)
     assert result.state.reaction.sum(axis=0)[1] == pytest.approx(3.0 * MASS, rel=1e-9)
     assert not result.linear
     assert result.text == "SPECTRUM(FLAT,Y)"
@@ -259,7 +263,7 @@ def test_groups_combine(beam, groups, factor):
     shocks = [Shock("FLAT", "Y", 1.0, name) for name in ("NEAR", "FAR")]
     model = Model(spectra=SPECTRA, groups=[NEAR, FAR])
     use = SpectrumUse(tuple(shocks), groups=groups)
-    cases = SpectrumPass(model, beam.structure.system, beam.modes, beam.structure, beam.inertia)
+    cases = SpectrumPass(model, beam.structure.system, beam.modes, beam.pencil)
     found = cases.solve(Case("RS", (), spectrum=use))
     uniform = beam.solve(Shock("FLAT", "Y"))
     assert found.state.u == pytest.approx(factor * uniform.state.u, rel=1e-9, abs=1e-15)
@@ -272,7 +276,7 @@ def test_missing_mass_of_a_group(beam):
     others = some(modes, np.flatnonzero(modes.participation[:, 1] == 0.0))
     shock = Shock("FLAT", "Y", 1.0, "FAR")
     found = beam.solve(shock, groups=(NEAR, FAR), modes=others, missing_mass=True)
-    assert found.envelope.card_force[:, 1] == pytest.approx([375.0, 375.0], rel=1e-6)
+    assert found.gathered.card_force[:, 1] == pytest.approx([375.0, 375.0], rel=1e-6)
 
 
 def test_group_without_support_is_named(beam):
