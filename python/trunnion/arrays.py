@@ -307,7 +307,7 @@ class CycleResult:
     cases: tuple[str, ...]
     loops: int
     repeats: bool
-    change: float  # largest change of a support load between the last two loops, relative
+    change: float  # of support loads and displacements between the last two loops, relative
     supports: F8 | None = None
     elements: F8 | None = None
     one_shot_supports: F8 | None = None
