@@ -3,76 +3,22 @@
 A combination has no state of its own: where its parents' contacts are open or slide means nothing
 in a sum, so sides, modes, normal forces and slides are left at zero.  Its certificate is its
 parents' worst.
+
+Support loads and end forces in the elements' own axes do not follow from combined numbers where
+the expression is no weighted sum, and are combined on their own (`CaseResult.envelope`).
 """
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, fields
+from collections.abc import Mapping
+from dataclasses import fields
 
 import numpy as np
 
-from trunnion.arrays import F8, CaseResult, Certificate, Item, Loads, State, System
-from trunnion.deformation import two_difference
+from trunnion.algebra import Numbers, evaluate, exact, is_linear, parents
+from trunnion.arrays import F8, CaseResult, Certificate, Envelope, Item, Loads, State, System
+from trunnion.balance import case_local_forces
+from trunnion.frames import Frame, common_frame
 from trunnion.model import Comb, Expression
-
-_LINEAR = frozenset(("case", "+", "-", "*", "neg"))
-
-
-@dataclass(frozen=True, slots=True)
-class Numbers:
-    """All numbers of one result in a row, as unevaluated sums high + low."""
-
-    high: F8
-    low: F8
-
-
-def _sum(a: Numbers, b: Numbers) -> Numbers:
-    high, error = two_difference(a.high, -b.high)
-    return Numbers(high, error + a.low + b.low)
-
-
-def _times(n: float, a: Numbers) -> Numbers:
-    return Numbers(n * a.high, n * a.low)
-
-
-def _size(a: Numbers) -> Numbers:
-    sign = np.where(np.signbit(a.high + a.low), -1.0, 1.0)
-    return Numbers(sign * a.high, sign * a.low)
-
-
-# What each word of an expression does with its evaluated operands.  A further word (SRSS, MAX,
-# MIN, SIGNMAX, SCALAR) is a function of any number of results and one line here.
-OPERATIONS: dict[str, Callable[..., Numbers]] = {
-    "+": _sum,
-    "-": lambda a, b: _sum(a, _times(-1.0, b)),
-    "*": _times,
-    "neg": lambda a: _times(-1.0, a),
-    "abs": _size,
-}
-
-
-def evaluate(expression: Expression, numbers: Mapping[str, Numbers]) -> Numbers:
-    """Evaluate an expression of case names on the numbers of those cases."""
-    word, *parts = expression
-    if word == "case":
-        return numbers[str(parts[0])]
-    operands = [evaluate(p, numbers) if isinstance(p, tuple) else p for p in parts]
-    return OPERATIONS[str(word)](*operands)
-
-
-def parents(expression: Expression) -> list[str]:
-    """Names of the cases in an expression, each once, in order."""
-    if expression[0] == "case":
-        return [str(expression[1])]
-    inner = [name for part in expression[1:] if isinstance(part, tuple) for name in parents(part)]
-    return list(dict.fromkeys(inner))
-
-
-def is_linear(expression: Expression) -> bool:
-    """Whether the expression is a weighted sum: then it has interior points as a case has."""
-    if expression[0] == "case":
-        return True
-    inner = all(is_linear(part) for part in expression[1:] if isinstance(part, tuple))
-    return expression[0] in _LINEAR and inner
+from trunnion.supports import card_forces
 
 
 def combine(comb: Comb, results: Mapping[str, CaseResult]) -> CaseResult:
@@ -81,21 +27,28 @@ def combine(comb: Comb, results: Mapping[str, CaseResult]) -> CaseResult:
     Without numbers in a parent there are none here either, and `cause` names the parent.
     """
     cases = [results[name] for name in parents(comb.expression)]
-    system = cases[0].system
-    answer = CaseResult(comb.name, "comb", comb.text, system, None, None, converged=False)
-    same = all(case.linear and case.system is system for case in cases)  # a hot one has its own E
-    answer.linear = same and is_linear(comb.expression)
+    frame = common_frame([case.system for case in cases])
+    answer = CaseResult(comb.name, "comb", comb.text, frame.system, None, None, converged=False)
+    weighted = is_linear(comb.expression)
+    answer.linear = frame.alike and weighted and all(case.linear for case in cases)
     without = [case.name for case in cases if case.state is None]
     if without:
         answer.cause = f"no numbers in {', '.join(without)}"
         return answer
     answer.converged = all(case.converged for case in cases)
     answer.certificate = inherit(cases)
-    row = evaluate(comb.expression, {case.name: _numbers(case) for case in cases})
-    answer.state, answer.loads = _unfold(system, row)
+    row = evaluate(comb.expression, {case.name: _numbers(case, frame) for case in cases})
+    answer.state, answer.loads = _unfold(frame.system, row)
+    if not weighted or any(case.envelope for case in cases):
+        answer.envelope = _envelope(comb.expression, cases)
     if answer.linear:
-        answer.penalty_u = _corrections(comb.expression, {c.name: c.penalty_u for c in cases})
-        answer.penalty_r = _corrections(comb.expression, {c.name: c.penalty_r for c in cases})
+        expression = comb.expression
+        answer.penalty_u = _corrections(expression, {c.name: c.penalty_u for c in cases})
+        held = {
+            c.name: None if c.penalty_r is None else frame.spread(c.system, c.penalty_r)
+            for c in cases
+        }
+        answer.penalty_r = _corrections(expression, held)
     answer.penalty_effect = {
         key: max(case.penalty_effect.get(key, 0.0) for case in cases)
         for key in dict.fromkeys(key for case in cases for key in case.penalty_effect)
@@ -122,12 +75,14 @@ def inherit(cases: list[CaseResult]) -> Certificate:
     return Certificate(passed, worst, where, tuple(found.values()), inherited=True)
 
 
-def _numbers(case: CaseResult) -> Numbers:
-    """Put displacements, forces and loads of one case in a row."""
+def _numbers(case: CaseResult, frame: Frame) -> Numbers:
+    """Put displacements, forces and loads of one case in a row; what it does not have is 0."""
     state, loads = case.state, case.loads
     assert state is not None
     assert loads is not None
-    rest = [state.end_force, state.reaction, state.friction]
+    friction = np.zeros((len(frame.system.sliders.mu), 3))
+    friction[: len(state.friction)] = state.friction
+    rest = [state.end_force, frame.spread(case.system, state.reaction), friction]
     rest += [getattr(loads, name) for name in _arrays(loads)]
     tail = np.concatenate([array.ravel() for array in rest])
     return Numbers(
@@ -136,10 +91,24 @@ def _numbers(case: CaseResult) -> Numbers:
     )
 
 
+def _envelope(expression: Expression, cases: list[CaseResult]) -> Envelope:
+    """Combine support loads, and end forces in the elements' own axes."""
+    local = {case.name: case_local_forces(case) for case in cases}
+    card = {case.name: card_forces(case) for case in cases}
+    found = [
+        evaluate(expression, {name: exact(a) for name, a in arrays.items()}).total
+        for arrays in (local, card)
+    ]
+    return Envelope(found[0].reshape(-1, 2, 6), found[1].reshape(-1, 6))
+
+
 def _corrections(expression: Expression, arrays: Mapping[str, F8 | None]) -> F8 | None:
     """Combine first-order corrections; None when a parent has none."""
-    given = {name: Numbers(a, np.zeros_like(a)) for name, a in arrays.items() if a is not None}
-    return evaluate(expression, given).high if len(given) == len(arrays) else None
+    given = {name: exact(a) for name, a in arrays.items() if a is not None}
+    if len(given) < len(arrays):
+        return None
+    shape = next(a.shape for a in arrays.values() if a is not None)
+    return evaluate(expression, given).high.reshape(shape)
 
 
 def _arrays(loads: Loads) -> list[str]:
