@@ -336,6 +336,7 @@ class SpectrumUse:
     modal: str = "SRSS"  # SRSS GROUP CQC ABS DSUM
     spatial: str = "SRSS"  # or ABS
     groups: str = "ABS"  # or SRSS: independent support motion
+    first: str = "MODES"  # what combines first; or DIRECTIONS
     damping: float = 0.02
     duration: float = 10.0  # of the strong motion, for the double sum [s]
     missing_mass: bool = False
