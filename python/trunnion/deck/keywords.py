@@ -551,6 +551,7 @@ TABLE: tuple[Keyword, ...] = (
             ),
             _choice("SPATIAL", "combination of directions", ("SRSS", "ABS"), "SRSS"),
             _choice("GROUPS", "combination of groups of supports", ("ABS", "SRSS"), "ABS"),
+            _choice("FIRST", "what is combined first", ("MODES", "DIRECTIONS"), "MODES"),
             _number(
                 "DAMPING", "fraction of critical damping", "number", "0.02", Bounds(0.0, 1.0, True)
             ),
