@@ -175,7 +175,8 @@ def test_signs_are_lost_where_directions_combine_first(cantilever):
     """Bending in Y and in Z has one frequency; its modes may as well stand at 45 degrees.
 
     CQC adds such modes with their signs, so shocks in Y and Z give a in Y and in Z whatever the
-    modes.  Directions first, each mode gets a, without sign: sqrt(2) a in one and nothing in the other.
+    modes.  Directions first, each mode gets a, without sign: sqrt(2) a in one and nothing in the
+    other.
     """
     modes = cantilever.modes
     shape, gamma = modes.shape.copy(), modes.participation.copy()
