@@ -5,8 +5,8 @@ import dataclasses
 import numpy as np
 import pytest
 
-from trunnion.arrays import CaseResult, Certificate, Contacts, Item, Loads, Sliders, State, System
 from trunnion.algebra import evaluate, is_linear, parents
+from trunnion.arrays import CaseResult, Certificate, Contacts, Item, Loads, Sliders, State, System
 from trunnion.combine import combine
 from trunnion.model import Comb
 

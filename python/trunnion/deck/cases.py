@@ -68,6 +68,9 @@ def _keys_fit(run: Context, record: Record) -> None:
             if key in keys:
                 message = f"{key} does nothing in a linear case without friction, {bases[0]}="
                 run.complain(record, message, f"{key}=")
+    for key, state, does in (("ABOUT", "FREE", "locks"), ("ON", "LOCKED", "frees")):
+        if key in keys and keys.get("SNUBBERS") == state:
+            run.complain(record, f"SNUBBERS={state}: {key}= {does} snubbers", "SNUBBERS=")
     for key in _SPECTRUM:
         if key in keys:
             run.complain(record, f"{key} goes with SPECTRUM(...) only", f"{key}=")
