@@ -132,23 +132,23 @@ def case_loads(model: Model, system: System, case: Case, sets: LoadSets | None =
 
 
 def case_warnings(sets: LoadSets, case: Case) -> tuple[str, ...]:
-    """List what is legal in a case but seldom meant."""
+    """List what is legal in a case but seldom meant; who prints it names the case."""
     names = {term.name for term in case.terms}
     heavy = sorted(names & {"W", "WNC", "WW"})
     found: list[str] = []
     if heavy and sets.hangers and "H" not in names:
         count = f"{sets.hangers} hanger{'s' if sets.hangers > 1 else ''}"
-        found.append(f"{case.name}: {heavy[0]} without H: the cold load of {count} is left out")
+        found.append(f"{heavy[0]} without H: the cold load of {count} is left out")
     if "H" in names and not sets.hangers:
-        found.append(f"{case.name}: H: there are no hangers")
+        found.append("H: there are no hangers")
     for name in sorted(n for n in names if n[0] == "T" and sets.bare.get(n[1:])):
         bare = sets.bare[name[1:]]
         pipes = "1 pipe" if bare == 1 else f"{bare} pipes"
-        found.append(f"{case.name}: {name} is not given on {pipes}")
+        found.append(f"{name} is not given on {pipes}")
     for name in sorted(n for n in names if n[0] == "D"):
-        found += [f"{case.name}: {text}" for text in sets.idle.get(name[1:], ())]
+        found += sets.idle.get(name[1:], ())
     for name in sorted(names):
-        found += [f"{case.name}: {text}" for text in sets.remarks.get(name, ())]
+        found += sets.remarks.get(name, ())
     return tuple(found)
 
 

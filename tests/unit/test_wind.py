@@ -359,7 +359,7 @@ def test_uneven_pressure_along_an_element_is_said_and_a_node_helps() -> None:
     wind = Wind("1", (0.0, 0.0, 1.0), speed=50.0, shape=1.2)
     whole = replace_winds(line((0.0, 30.0, 0.0)), wind)
     (warning,) = case_warnings(load_sets(whole, build_system(whole)), case("WIND1"))
-    assert warning.startswith("C: WIND1: the pressure changes by 39% along 10-20: the mean acts")
+    assert warning.startswith("WIND1: the pressure changes by 39% along 10-20: the mean acts")
     split = replace_winds(line(*[(0.0, 1.2, 0.0)] * 25), wind)
     assert case_warnings(load_sets(split, build_system(split)), case("WIND1")) == ()
 

@@ -6,6 +6,7 @@ from typing import Any
 from trunnion.deck.context import Context
 from trunnion.deck.record import Record
 from trunnion.model import Snow, Wind
+from trunnion.wind import pressure_of
 
 _SOURCES = ("PRESSURE", "VELOCITY", "ASCE7")
 _ASCE7 = ("EXPOSURE", "KZT", "KD", "GUST")
@@ -32,8 +33,6 @@ def wind(run: Context, record: Record) -> None:
     else:
         table = keys[given[0]]
     if given[0] == "VELOCITY":
-        from trunnion.wind import pressure_of
-
         table = tuple((z, pressure_of(v)) for z, v in table)
     own: dict[str, Any] = {
         key.lower(): keys[key] for key in ("SHAPE", "GROUND", *_ASCE7) if key in keys
