@@ -67,7 +67,8 @@ def card_levels(case: CaseResult) -> I4:
     np.maximum.at(level, s.sliders.card, state.mode)
     without = np.ones(len(s.cards), bool)
     without[s.contacts.card] = False
-    level[without] = ENGAGED  # a hanger without rate always carries
+    hangs = np.array([card.kind == "hanger" for card in s.cards], np.bool_)
+    level[without & hangs] = ENGAGED  # a hanger without rate always carries; a free snubber nothing
     return level
 
 

@@ -6,8 +6,10 @@ from itertools import groupby
 import numpy as np
 
 from trunnion.arrays import ARC, System
+from trunnion.default_cases import with_cases
 from trunnion.model import Case, Comb, Model
 from trunnion.report.columns import Column, integers, numbers, plain, section, table, words
+from trunnion.report.dynamics import cycle_echo, dynamics_echo
 from trunnion.report.props import support_echo
 from trunnion.report.units import ReportUnits
 from trunnion.report.winds import wind_echo
@@ -27,7 +29,9 @@ def input_echo(model: Model, system: System, texts: Mapping[str, str], units: Re
             _operations(model, units),
             _loads(model, units),
             wind_echo(model, system, units),
+            dynamics_echo(model),
             _cases(model, texts),
+            cycle_echo(model),
         )
     )
 
@@ -242,8 +246,10 @@ def _six(kind: str, values: Sequence[Sequence[float]], units: ReportUnits) -> li
 
 
 def _cases(model: Model, texts: Mapping[str, str]) -> str:
-    """Write every case as its card does."""
-    text = section("LOAD CASES")
+    """Write every case as its card does; those of a deck that names none are marked."""
+    note = "" if model.cases else "default: the deck names none"
+    model = with_cases(model)
+    text = section("LOAD CASES", note)
     width = max((len(case.name) for case in model.cases), default=0) + 2
     for case in model.cases:
         words = "  ".join([texts.get(case.name, ""), *_options(case)])

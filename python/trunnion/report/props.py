@@ -23,6 +23,9 @@ def support_echo(model: Model, system: System, units: ReportUnits) -> str:
     text += _directions(system, units)
     if kinds["spring"]:
         text += section("SPRINGS TO GROUND", "in their own axes") + _springs(kinds["spring"], units)
+    if snubbers := [s for s in model.supports if s.kind == "snubber"]:
+        text += section("SNUBBERS", "free but in cases with ABOUT and in modes; - K: rigid")
+        text += _snubbers(snubbers, units)
     if hangers := [s for s in model.supports if s.kind == "hanger"]:
         text += section("SPRING HANGERS") + _hangers(hangers, units)
     return text
@@ -91,6 +94,18 @@ def _springs(cards: Sequence[Support], units: ReportUnits) -> str:
         quantity = units.rotational_stiffness if i > 2 else units.stiffness
         columns.append(_given(head, [row[i] for row in k], quantity, 16))
     return table([*columns, integers("LINE", [s.place.line for s in cards])])
+
+
+def _snubbers(cards: Sequence[Support], units: ReportUnits) -> str:
+    columns = [
+        words("NODE", [s.node for s in cards]),
+        words("CNODE", [s.cnode for s in cards]),
+        words("DIRECTION", [s.directions[0].word for s in cards]),
+        _given("K", [s.k for s in cards], units.stiffness, 14),
+        integers("LINE", [s.place.line for s in cards]),
+        words("  NAME", [f"  {s.name or ''}" for s in cards]),
+    ]
+    return table(columns)
 
 
 def _hangers(cards: Sequence[Support], units: ReportUnits) -> str:
