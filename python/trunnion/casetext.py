@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 
-from trunnion.algebra import parents
+from trunnion.combine import parents
 from trunnion.errors import ModelError, Problem
 from trunnion.model import Case, Comb, Term
 

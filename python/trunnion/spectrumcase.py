@@ -6,7 +6,7 @@ from typing import Protocol
 
 import numpy as np
 
-from trunnion.arrays import BOTH, F8, CaseResult, Certificate, Envelope, Loads, State, System
+from trunnion.arrays import BOTH, F8, CaseResult, Certificate, Loads, State, System, sizes
 from trunnion.balance import local_forces
 from trunnion.errors import ModelError, Problem
 from trunnion.model import Case, Group, Shock, Spectrum, SpectrumUse
@@ -85,7 +85,7 @@ def spectrum_case(
     system = structure.system
     return CaseResult(
         name=case.name,
-        kind="case",
+        kind="spectrum",
         text=spectrum_text(use),
         system=system,
         loads=_no_loads(system),
@@ -93,7 +93,7 @@ def spectrum_case(
         converged=True,
         certificate=certificate and replace(certificate, inherited=True),
         linear=False,
-        envelope=Envelope(found["local_force"], found["card_force"]),
+        gathered=sizes(found["card_force"], found["local_force"]),
     )
 
 

@@ -146,9 +146,9 @@ def test_one_mass_in_closed_form(cantilever):
     tip = result.state.u[cantilever.node("20")]
     assert tip[1] == pytest.approx(3.0 * MASS * c, rel=1e-10)
     force = np.array([0.0, 3.0 * MASS, 0.0, 0.0, 0.0, 3.0 * MASS * L])
-    for found in (result.state.end_force[0, 0], result.envelope.local_force[0, 0]):
+    for found in (result.state.end_force[0, 0], result.gathered.local_force[0, 0]):
         assert found == pytest.approx(force, rel=1e-9, abs=1e-9)
-    assert result.envelope.card_force[0] == pytest.approx(force, rel=1e-9, abs=1e-9)
+    assert result.gathered.card_force[0] == pytest.approx(force, rel=1e-9, abs=1e-9)
     assert result.state.reaction.sum(axis=0)[1] == pytest.approx(3.0 * MASS, rel=1e-9)
     assert not result.linear
     assert result.text == "SPECTRUM(FLAT,Y)"
@@ -266,7 +266,7 @@ def test_missing_mass_of_a_group(beam):
     found = spectrum_case(
         Case("RS", (), spectrum=use), beam.structure, some, SPECTRA, (NEAR, FAR), beam.rigid
     )
-    assert found.envelope.card_force[:, 1] == pytest.approx([375.0, 375.0], rel=1e-6)
+    assert found.gathered.card_force[:, 1] == pytest.approx([375.0, 375.0], rel=1e-6)
 
 
 def test_group_without_support_is_named(beam):
