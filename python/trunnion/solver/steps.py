@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -14,7 +15,7 @@ from trunnion.solver.verdict import commit
 
 RAMPS = (2, 4, 8, 16, 32, 64)
 EVENTS = 200  # closings located in one step, at most
-LAST_PASSES = 3000  # of the status iteration where newton has failed
+LAST_PASSES = 3000  # of the status iteration where one step has failed
 LOCATED = 1e-10  # of the gap, where the load fraction of a closing counts as found
 
 Step = Callable[[Structure, Point, Sliding, Forcing, History], Solved]
@@ -109,6 +110,9 @@ def _fallbacks(
     """Ramping, then the status iteration with freezing; the first cause stands if all fail."""
     if "without bound" in (first.cause or ""):
         return first
+    is_status = solve is solve_status
+    if is_status:
+        solve = partial(solve_status, passes=LAST_PASSES)
     for n in RAMPS:
         if not (law.mu > 0.0).any():
             break  # without history a ramp ends where one step does
@@ -122,7 +126,7 @@ def _fallbacks(
             return solved
         if "without bound" in (solved.cause or ""):
             return first
-    if solve is not solve_status:
+    if not is_status:
         _return(point, before)
         solved = solve_status(structure, point, law, target, history, passes=LAST_PASSES)
         if solved.settled:
