@@ -273,6 +273,18 @@ class CycleResult:
     cause: str | None = None
 
 
+@dataclass(frozen=True, slots=True)
+class Envelope:
+    """Largest values of a result without signs, which do not turn from one set of axes to another.
+
+    local_force : (n_elem, 2, 6) end forces on the elements in the axes of each end [N, N m].
+    card_force : (n_card, 6) support loads, a card's contacts first added with their signs.
+    """
+
+    local_force: F8
+    card_force: F8
+
+
 @dataclass(slots=True)
 class CaseResult:
     """One case or combination.
@@ -301,6 +313,7 @@ class CaseResult:
     work: dict[str, int] = field(default_factory=dict)
     linear: bool = True  # False: a combination with ABS or of two moduli: no interior points
     frozen_check: tuple[FrozenBreak, ...] = ()  # of a locked case: what its assumption breaks
+    envelope: Envelope | None = None  # of a response spectrum case, all of whose numbers are >= 0
 
     @property
     def displacements(self) -> "Table":

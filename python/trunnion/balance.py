@@ -50,6 +50,13 @@ def end_axes(system: System) -> F8:
     return np.stack(ends, axis=1)
 
 
+def case_local_forces(case: CaseResult) -> F8:
+    """(n_elem, 2, 6) end forces in the axes of each end; of an envelope its own largest values."""
+    if case.envelope is not None:
+        return case.envelope.local_force
+    return local_forces(case.system, solved(case).end_force)
+
+
 def local_forces(system: System, end_force: F8) -> F8:
     """(n_elem, 2, 6) end forces and moments on the elements in the axes of each end."""
     split = end_force.reshape(-1, 2, 2, 3)

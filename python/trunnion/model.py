@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 Label = str | int
+Points = Sequence[Sequence[float]]
 Value = float | str | Sequence[float] | None
 Word = str | Sequence[float] | tuple[str | Sequence[float], Mapping[str, Value]]
 
@@ -335,6 +336,7 @@ class SpectrumUse:
     modal: str = "SRSS"  # SRSS GROUP CQC ABS DSUM
     spatial: str = "SRSS"  # or ABS
     groups: str = "ABS"  # or SRSS: independent support motion
+    first: str = "MODES"  # what combines first; or DIRECTIONS
     damping: float = 0.02
     duration: float = 10.0  # of the strong motion, for the double sum [s]
     missing_mass: bool = False
@@ -352,9 +354,11 @@ class Group:
 
 @dataclass(frozen=True, slots=True)
 class Wind:
-    """WIND set: pressure [Pa] against elevation [m], or ASCE 7, with attack direction.
+    """WIND set: pressure [Pa] against elevation [m], or ASCE 7-16, with attack direction.
 
-    `table` holds (elevation, pressure) from velocities or pressures; empty for ASCE 7.
+    `direction` is where the wind blows to, of any length.  `table` holds (elevation, pressure)
+    from velocities or pressures, elevations above `ground` and ascending; empty for ASCE 7.
+    kzt, kd and gust belong to ASCE 7 alone, shape to both.
     """
 
     set: str
@@ -363,16 +367,16 @@ class Wind:
     speed: float | None = None  # ASCE 7 basic wind speed [m/s]
     exposure: str = "C"
     kzt: float = 1.0
-    kd: float = 0.95
+    kd: float = 1.0  # round sections in 7-16; 0.95 before
     gust: float = 0.85
     shape: float = 0.7  # force coefficient of the pipe
-    ground: float = 0.0  # elevation of the ground [m]
+    ground: float = 0.0  # coordinate of the ground along the vertical axis [m]
     place: Place = field(default=Place(), compare=False)
 
 
 @dataclass(frozen=True, slots=True)
 class Snow:
-    """SNOW: uniform vertical load of snow or ice on all pipes [N/m], set S."""
+    """SNOW: vertical load of snow or ice on every length of pipe [N/m], set S; cards add up."""
 
     weight: float
     place: Place = field(default=Place(), compare=False)
@@ -472,6 +476,10 @@ class Model:
         """Add a spring hanger: RATE= LOAD=."""
         self._add("HANGER", (node,), keys)
 
+    def snubber(self, node: Label, direction: str | Sequence[float], **keys: Value) -> None:
+        """Hold X, Y, Z or (a,b,c) in occasional cases and modes only: K= CNODE= NAME=."""
+        self._add("SNUBBER", (node, direction), keys)
+
     def force(self, node: Label, set: str, **keys: Value) -> None:
         """Add a nodal force of set F1 to F9: FX= ... MZ=."""
         self._add("FORCE", (node, set), keys)
@@ -481,16 +489,43 @@ class Model:
         self._add("DISPLACEMENT", (node, set), keys)
 
     def acceleration(self, set: str, **keys: Value) -> None:
-        """Give the uniform acceleration of set U1 to U3 in g: X= Y= Z=."""
+        """Give the uniform acceleration of set U1 to U9 in g: X= Y= Z=."""
         self._add("ACCELERATION", (set,), keys)
 
+    def wind(self, set: str, **keys: Value | Points) -> None:
+        """Give wind WIND1 to WIND9: DIR= with PRESSURE= or VELOCITY= [(z, p), ...], or ASCE7=."""
+        self._add("WIND", (set,), keys)
+
+    def snow(self, weight: float | str) -> None:
+        """Put snow or ice on all pipes [N/m]: set S."""
+        self._add("SNOW", (weight,), {})
+
+    def spectrum(self, name: str, **keys: Value | Points) -> None:
+        """Define a response spectrum: TABLE=[(f, a), ...] X= Y= INTERP=."""
+        self._add("SPECTRUM", (name,), keys)
+
+    def group(self, name: str, *nodes: Label) -> None:
+        """Name supports that move together in independent support motion."""
+        self._add("GROUP", (name, *nodes), {})
+
+    def modes(self, n: int, **keys: Value) -> None:
+        """Ask for n modes: FMAX= ABOUT= MASS= MESH= ROTARY= FRICTION=."""
+        self._add("MODES", (n,), keys)
+
     def case(self, name: str, loads: str, **keys: Value) -> None:
-        """Define a load case: "W + P1 + T1"; FROM= STEPS= MUX= E= EVENTS= ITERATION= SNUBBERS=."""
+        """Define a load case "W + P1 + T1": FROM= ABOUT= ON= STEPS= MUX= E= SNUBBERS= ...
+
+        "SPECTRUM(SSE,X)" makes it a response spectrum; NONLINEAR=True goes with ABOUT=.
+        """
         self._add("CASE", (name, loads), keys)
 
     def comb(self, name: str, expression: str) -> None:
         """Define a combination of results: "OPE - SUS"."""
         self._add("COMB", (name, expression), {})
+
+    def cycle(self, name: str, *cases: str, **keys: Value) -> None:
+        """Follow cases one after another until the loop repeats: TIMES= FROM=."""
+        self._add("CYCLE", (name, *cases), keys)
 
     def check(self) -> None:
         """Raise ModelError with every fault that shows without geometry."""
@@ -504,7 +539,7 @@ class Model:
 
         return write(self)
 
-    def _add(self, keyword: str, args: tuple[Any, ...], keys: Mapping[str, Value]) -> None:
+    def _add(self, keyword: str, args: tuple[Any, ...], keys: Mapping[str, Any]) -> None:
         """Add one record at the place of the call."""
         from trunnion.deck.api import add
 

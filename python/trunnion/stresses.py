@@ -132,10 +132,13 @@ def _at_end(case: CaseResult, element: Index, end: int) -> Stresses:
     if case.state is None or case.loads is None:
         raise ValueError(f"{case.name} has no numbers")
     system = case.system
-    axes = section_axes(system, element, np.full(len(element), float(end)))
-    sign = 1.0 if end else -1.0
-    force = sign * case.state.end_force[element, end].reshape(-1, 2, 3)
-    local = np.einsum("nij,nkj->nki", axes, force).reshape(-1, 6)
+    if case.envelope is not None:
+        local = case.envelope.local_force[element, end]
+    else:
+        axes = section_axes(system, element, np.full(len(element), float(end)))
+        sign = 1.0 if end else -1.0
+        force = sign * case.state.end_force[element, end].reshape(-1, 2, 3)
+        local = np.einsum("nij,nkj->nki", axes, force).reshape(-1, 6)
     pressure = case.loads.pressure[element]
     return pipe_stresses(system.od[element], system.wall[element], local, pressure)
 

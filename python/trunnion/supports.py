@@ -5,7 +5,18 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from trunnion.arrays import ENGAGED, F8, I4, OPEN, Card, CaseResult, Contacts, Sliders, State
+from trunnion.arrays import (
+    ENGAGED,
+    F8,
+    I4,
+    OPEN,
+    Card,
+    CaseResult,
+    Contacts,
+    Sliders,
+    State,
+    System,
+)
 
 STATES = ("open", "engaged", "stick", "slip")
 
@@ -23,12 +34,20 @@ def card_ids(cards: Sequence[Card]) -> tuple[str, ...]:
 def card_forces(case: CaseResult) -> F8:
     """(n_card, 6) force and moment of each card on the pipe, global [N, N m]."""
     s, state = case.system, solved(case)
+    if case.envelope is not None:
+        return case.envelope.card_force
+    total = contact_sums(s, state.reaction)
+    np.add.at(total[:, :3], s.sliders.card, state.friction)
+    return total
+
+
+def contact_sums(s: System, reaction: F8) -> F8:
+    """(n_card, 6) forces and moments of contacts (n_contact, 3), added up for each card."""
     total = np.zeros((len(s.cards), 6))
     turning = s.contacts.rotational
-    pushes = np.where(turning[:, None], 0.0, state.reaction)
+    pushes = np.where(turning[:, None], 0.0, reaction)
     np.add.at(total[:, :3], s.contacts.card, pushes)
-    np.add.at(total[:, 3:], s.contacts.card[turning], state.reaction[turning])
-    np.add.at(total[:, :3], s.sliders.card, state.friction)
+    np.add.at(total[:, 3:], s.contacts.card[turning], reaction[turning])
     return total
 
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from trunnion.arrays import F8, CaseResult, Part
-from trunnion.balance import local_forces
+from trunnion.balance import case_local_forces
 from trunnion.interior import mid_of_bend
 from trunnion.names import UnknownName
 from trunnion.stresses import Stresses, end_stresses
@@ -112,7 +112,7 @@ def supports(case: CaseResult) -> Table:
 def elements(case: CaseResult) -> Table:
     """End forces on every element, global and in the axes of its ends (x along the pipe)."""
     system, force = case.system, solved(case).end_force
-    both = np.concatenate([force, local_forces(system, force)], axis=1)
+    both = np.concatenate([force, case_local_forces(case)], axis=1)
     ends = ("from", "to", "local_from", "local_to")
     columns = tuple(f"{name}_{end}" for end in ends for name in FORCES)
     units = (("N",) * 3 + ("N m",) * 3) * 4

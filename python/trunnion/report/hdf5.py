@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from trunnion.arrays import CaseResult, Results, System
-from trunnion.balance import local_forces
+from trunnion.balance import case_local_forces
 from trunnion.stresses import end_stresses
 from trunnion.supports import STATES, card_forces, card_ids, card_levels, cause_of, is_good, solved
 from trunnion.tables import element_ids
@@ -106,7 +106,7 @@ def _case(group: "h5py.Group", case: CaseResult) -> None:
 
 
 def _numbers(group: "h5py.Group", case: CaseResult) -> None:
-    state, system = solved(case), case.system
+    state = solved(case)
     inner = group.create_group("state")
     for field in fields(state):
         inner[field.name] = getattr(state, field.name)
@@ -114,7 +114,7 @@ def _numbers(group: "h5py.Group", case: CaseResult) -> None:
         inner = group.create_group("loads")
         for field in fields(case.loads):
             inner[field.name] = getattr(case.loads, field.name)
-    group["local_force"] = local_forces(system, state.end_force)
+    group["local_force"] = case_local_forces(case)
     group["support_force"] = card_forces(case)
     if case.kind == "case":
         group["support_state"] = card_levels(case).astype(np.int8)

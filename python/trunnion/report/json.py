@@ -9,7 +9,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from trunnion.arrays import F8, CaseResult, Certificate, Results, System
-from trunnion.balance import load_sum, local_forces, reaction_sum
+from trunnion.balance import case_local_forces, load_sum, reaction_sum
 from trunnion.interior import mid_of_bend
 from trunnion.report.encode import dump, finite, lines, listing, records, rows, short, words
 from trunnion.report.json_supports import support_entries
@@ -93,7 +93,7 @@ def _by_node(system: System, values: F8, middles: Mapping[str, F8]) -> str:
 def _elements(case: CaseResult) -> str:
     """Write one line an element; local axes have x along the pipe's tangent at that end."""
     parts, force = case.system.parts, solved(case).end_force
-    local = local_forces(case.system, force)
+    local = case_local_forces(case)
     fields = {
         "id": words(element_ids(parts)),
         "from": words(part.start for part in parts),
