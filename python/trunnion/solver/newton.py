@@ -72,6 +72,8 @@ def relax(
             push = float(np.vdot(r, p))
             stiff = push - shift * float(np.vdot(p, p))
             step = structure.search(point, sliding, forcing, p, (push, stiff))
+            if not step * np.abs(p).max() < RUNAWAY * structure.size:
+                return Outcome(response, r, residual, False, runaway=True, shifted=shifted)
         r -= step * (r - shift * p)
         kernel_part = np.zeros_like(r)
         structure.changing_product(response, p, kernel_part)
