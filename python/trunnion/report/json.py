@@ -9,10 +9,14 @@ from collections.abc import Mapping
 import numpy as np
 
 from trunnion.arrays import F8, CaseResult, Certificate, Results, System
-from trunnion.balance import case_local_forces, load_sum, reaction_sum
+from trunnion.balance import load_sum, local_end_forces, reaction_sum
 from trunnion.interior import mid_of_bend
+from trunnion.model import Model
 from trunnion.report.encode import dump, finite, lines, listing, records, rows, short, words
+from trunnion.report.json_modes import mode_entries
+from trunnion.report.json_runs import cycle_entries, envelope_entries, frozen_entries
 from trunnion.report.json_supports import support_entries
+from trunnion.report.json_winds import wind_entries
 from trunnion.stresses import end_stresses
 from trunnion.supports import cause_of, is_good, solved
 from trunnion.tables import element_ids
@@ -23,15 +27,22 @@ STRESSES = (
 )  # fmt: skip
 
 
-def json_report(results: Results) -> bytes:
-    """Write the whole file: schema, cases, warnings, work."""
+def json_report(results: Results, model: Model | None = None) -> bytes:
+    """Write the whole file: schema, cases, warnings, work; with its model the winds, too."""
     parts = {
         "schema": "1",
         "title": dump(results.title),
         "cases": lines({name: _case(case) for name, case in results.cases.items()}),
-        "warnings": dump(list(results.warnings)),
-        "work": dump(results.work),
+        "envelope": envelope_entries(results),
     }
+    if results.cycles:
+        parts["cycles"] = cycle_entries(results)
+    if model is not None and model.winds:
+        parts["winds"] = wind_entries(model, results.system)
+    if results.modes is not None:
+        parts["modes"] = mode_entries(results.modes, results.system)
+    parts["warnings"] = dump(list(results.warnings))
+    parts["work"] = dump(results.work)
     return (lines(parts) + "\n").encode()
 
 
@@ -44,6 +55,7 @@ def _case(case: CaseResult) -> str:
         "cause": dump(None if good else cause_of(case)),
         "certificate": dump(_certificate(case.certificate)),
         "frozen": dump(list(case.frozen)),
+        "frozen_check": frozen_entries(case),
         "warnings": dump(list(case.warnings)),
         "work": dump(case.work),
         "history": listing(dump(_finite(record)) for record in case.history),
@@ -93,7 +105,7 @@ def _by_node(system: System, values: F8, middles: Mapping[str, F8]) -> str:
 def _elements(case: CaseResult) -> str:
     """Write one line an element; local axes have x along the pipe's tangent at that end."""
     parts, force = case.system.parts, solved(case).end_force
-    local = case_local_forces(case)
+    local = local_end_forces(case)
     fields = {
         "id": words(element_ids(parts)),
         "from": words(part.start for part in parts),
