@@ -9,9 +9,10 @@ from trunnion.arrays import ModeSet
 from trunnion.balance import local_forces
 from trunnion.deck.reader import read_text
 from trunnion.errors import ModelError
-from trunnion.masses import Masses
+from trunnion.masses import Masses, model_masses
 from trunnion.model import Case, Group, Model, Shock, Spectrum, SpectrumUse
 from trunnion.solver.ledger import Ledger
+from trunnion.solver.modal import modes_of
 from trunnion.solver.pencil import Pencil
 from trunnion.solver.spectrum import acceleration
 from trunnion.solver.structure import Structure
@@ -326,3 +327,81 @@ def test_largest_values_do_not_turn_with_the_axes():
     assert found == pytest.approx([3.0 * MASS] * 2, rel=1e-6)
     axial = result.stresses["10-20"]["axial_to"]
     assert axial == pytest.approx(3.0 * MASS / (np.pi / 4.0 * (0.2**2 - 0.18**2)), rel=1e-6)
+
+
+# ---------------------------------------------------------------------- decks
+RULES = "MODAL=GROUP SPATIAL=ABS GROUPS=SRSS FIRST=DIRECTIONS DAMPING=0.05 ZPA=0.2 MISSING=ON"
+
+
+def test_every_rule_of_a_case_survives_the_writer():
+    """The deck written from a model reads back to the same case."""
+    text = f"{CANTILEVER}MODES 3\nSPECTRUM S Y=M/S2 TABLE=(1,2),(9,3)\nGROUP END = 10\n"
+    text += f"CASE RS = SPECTRUM(S,X,0.667,END) + SPECTRUM(S,Y,1,END) {RULES}\n"
+    model = read_text(text, "rules.inp")
+    use = model.cases[-1].spectrum
+    assert use.shocks == (Shock("S", "X", 0.667, "END"), Shock("S", "Y", 1.0, "END"))
+    words = (use.modal, use.spatial, use.groups, use.first, use.damping, use.missing_mass)
+    assert words == ("GROUP", "ABS", "SRSS", "DIRECTIONS", 0.05, True)
+    assert use.zpa == pytest.approx(0.2 * 9.80665, rel=1e-15)
+    assert read_text(model.deck(), "again.inp").cases[-1].spectrum == use
+
+
+# ---------------------------------------------------------------------- extra nodes
+HEAVY = HEAD.replace("NU=0.3", "NU=0.3 DENSITY=7850") + "ANCHOR 10\n"
+ENDING = """\
+SUPPORT  30     Y Z
+MODES    6 FMAX=120 MESH={}
+SPECTRUM FLAT Y=M/S2 TABLE=(1,3),(100,3)
+GROUP    NEAR = 10
+GROUP    FAR = 30
+CASE RS = SPECTRUM(FLAT,X,1,NEAR) + SPECTRUM(FLAT,Y,1,FAR) + SPECTRUM(FLAT,Z,2,NEAR)  MISSING=ON
+"""
+
+
+def shaken(text):
+    """System, modes and spectrum case of a deck."""
+    model = read_text(text, "mesh.inp")
+    system = build_system(model)
+    modes, pencil = modes_of(system, model_masses(model, system), model.modal, Ledger())
+    return system, modes, SpectrumPass(model, system, modes, pencil).solve(model.cases[-1])
+
+
+def test_extra_nodes_of_the_modes_leave_the_model_as_it_is():
+    """A bend and its legs cut by MESH=AUTO answer as the same pipe cut by hand.
+
+    Both legs are cut in equal parts, and the bend in its middle, which a force of nothing makes
+    a node.
+    """
+    auto = HEAVY + "PIPE 10 20 DX=6\nBEND 20 R=0.3\nPIPE 20 30 DZ=6\n" + ENDING.format("AUTO")
+    system, modes, found = shaken(auto)
+    assert np.bincount(modes.part_of)[1] == 2
+    assert modes.added > 2
+    n = int((modes.part_of == 0).sum())  # parts of the first leg
+    step = 5.7 / n
+    points = [f"PIPE {9 + i} {10 + i} DX={step!r}\n" for i in range(1, n)]
+    legs = "".join(points) + f"PIPE {9 + n} 200 DX={step + 0.3!r}\nBEND 200 R=0.3\n"
+    legs += "FORCE 200M F1 FX=0\n"
+    m = int((modes.part_of == list(system.kind).index(0, 1)).sum())
+    step = 5.7 / m
+    legs += f"PIPE 200 301 DZ={step + 0.3!r}\n"
+    legs += "".join(f"PIPE {300 + i} {301 + i} DZ={step!r}\n" for i in range(1, m - 1))
+    legs += f"PIPE {299 + m} 30 DZ={step!r}\n"
+    whole, plain, by_hand = shaken(HEAVY + legs + ENDING.format("NONE"))
+    assert plain.added == 0
+    assert modes.frequency == pytest.approx(plain.frequency, rel=1e-9)
+    scale = np.abs(by_hand.state.end_force).max()
+    first, last = 0, len(system.kind) - 1
+    for element, at, label in ((first, 0, "10"), (last, 1, "30")):
+        node = whole.labels.index(label)
+        hand = next(
+            by_hand.gathered.local_force[e, at]
+            for e, ends in enumerate(whole.ends.tolist())
+            if ends[at] == node
+        )
+        assert found.gathered.local_force[element, at] == pytest.approx(
+            hand, rel=1e-6, abs=1e-7 * scale
+        )
+    assert found.gathered.card_force == pytest.approx(
+        by_hand.gathered.card_force, rel=1e-6, abs=1e-7 * scale
+    )
+    assert found.state.u.shape == (len(system.labels), 6)
