@@ -5,18 +5,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from trunnion.arrays import F8, CaseResult, Loads, Results, System
+from trunnion.arrays import F8, CaseResult, CycleResult, Loads, Results, System
 from trunnion.casetext import case_text, in_order
 from trunnion.combine import combine
-from trunnion.cycles import follow
 from trunnion.loads import LoadSets, case_loads, case_warnings, load_sets
 from trunnion.model import Case, Comb, Model
-from trunnion.occasional import LockedPass
 from trunnion.solver.answer import Question, answer, forcing_of, refuse_mechanisms
 from trunnion.solver.friction import Solved
 from trunnion.solver.ledger import Ledger
 from trunnion.solver.linear import solve_linear
-from trunnion.solver.locked import snubbed_system
 from trunnion.solver.steps import Origin, Plan
 from trunnion.solver.structure import Point, Structure
 from trunnion.system import build_system, hot_system
@@ -86,14 +83,25 @@ class Run:
         for own in plain:
             self._keep(self.solve_case(own, prepared.get(own.name)))
         locked = [c for c in cases if isinstance(c, Case) and (c.about or c.on)]
-        for result in LockedPass(self).solve(locked):
-            self._keep(result)
-        cycles = {c.name: follow(self, c) for c in self.model.cycles}
+        if locked:
+            from trunnion.occasional import LockedPass
+
+            for result in LockedPass(self).solve(locked):
+                self._keep(result)
+        cycles = self._cycles()
         for case in cases:
             if isinstance(case, Comb):
                 self.found[case.name] = combine(case, self.found)
         inorder = {case.name: self.found[case.name] for case in self.model.cases}
         return Results(self.model.title, inorder, (), self.ledger.snapshot(), cycles)
+
+    def _cycles(self) -> dict[str, CycleResult]:
+        """Follow the loops of cases, where there are any."""
+        if not self.model.cycles:
+            return {}
+        from trunnion.cycles import follow
+
+        return {cycle.name: follow(self, cycle) for cycle in self.model.cycles}
 
     def _keep(self, result: CaseResult) -> None:
         """Store an answer with the work done since the last; shared work stands on the first."""
@@ -132,6 +140,8 @@ class Run:
         key = (which, snubbed)
         if key not in self.structures:
             if snubbed:
+                from trunnion.solver.locked import snubbed_system
+
                 parent = self.structure_of(which)
                 system, keep = snubbed_system(parent.system)
                 self.structures[key] = Structure(system, self.ledger, parent, keep)
