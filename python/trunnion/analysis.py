@@ -93,7 +93,8 @@ class Run:
             if isinstance(case, Comb):
                 self.found[case.name] = combine(case, self.found)
         inorder = {case.name: self.found[case.name] for case in self.model.cases}
-        return Results(self.model.title, inorder, (), self.ledger.snapshot(), cycles)
+        work = self.ledger.snapshot()
+        return Results(self.model.title, inorder, (), work, cycles, self.system)
 
     def _cycles(self) -> dict[str, CycleResult]:
         """Follow the loops of cases, where there are any."""
