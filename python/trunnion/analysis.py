@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from trunnion.arrays import F8, CaseResult, CycleResult, Loads, Results, System
+from trunnion.arrays import F8, CaseResult, CycleResult, Loads, ModeSet, Results, System
 from trunnion.casetext import case_text, in_order
 from trunnion.combine import combine
 from trunnion.loads import LoadSets, case_loads, case_warnings, load_sets
@@ -73,6 +73,7 @@ class Run:
         self.structures: dict[tuple[str, bool], Structure] = {}
         self.found: dict[str, CaseResult] = {}
         self.ended: dict[str, Origin] = {}
+        self.refused_modes: str | None = None
         self.counted = self.ledger.snapshot()  # work that stands on a case already
 
     def results(self) -> Results:
@@ -88,13 +89,27 @@ class Run:
 
             for result in LockedPass(self).solve(locked):
                 self._keep(result)
+        modes = self._dynamics([c for c in cases if isinstance(c, Case) and c.spectrum])
         cycles = self._cycles()
         for case in cases:
             if isinstance(case, Comb):
                 self.found[case.name] = combine(case, self.found)
         inorder = {case.name: self.found[case.name] for case in self.model.cases}
         work = self.ledger.snapshot()
-        return Results(self.model.title, inorder, (), work, cycles, self.system)
+        warnings = (self.refused_modes,) if self.refused_modes else ()
+        return Results(self.model.title, inorder, warnings, work, cycles, self.system, modes)
+
+    def _dynamics(self, spectra: list[Case]) -> ModeSet | None:
+        """Find the modes and solve the spectrum cases, where a deck asks for them."""
+        if self.model.modes is None and not spectra:
+            return None
+        from trunnion.dynamics import Dynamics
+
+        dynamics = Dynamics(self)
+        self.refused_modes = dynamics.cause
+        for result in dynamics.spectra(spectra):
+            self._keep(result)
+        return dynamics.modes
 
     def _cycles(self) -> dict[str, CycleResult]:
         """Follow the loops of cases, where there are any."""
