@@ -10,6 +10,7 @@ from trunnion.casetext import case_text, in_order
 from trunnion.combine import combine
 from trunnion.loads import LoadSets, case_loads, case_warnings, load_sets
 from trunnion.model import Case, Comb, Model
+from trunnion.snubbed import go_on, locked_at_rest
 from trunnion.solver.answer import Question, answer, forcing_of, refuse_mechanisms
 from trunnion.solver.friction import Solved
 from trunnion.solver.ledger import Ledger
@@ -97,11 +98,11 @@ class Run:
         inorder = {case.name: self.found[case.name] for case in self.model.cases}
         work = self.ledger.snapshot()
         warnings = (self.refused_modes,) if self.refused_modes else ()
-        return Results(self.model.title, inorder, warnings, work, cycles, self.system, modes)
+        return Results(self.model.title, inorder, warnings, work, cycles, modes, self.system)
 
     def _dynamics(self, spectra: list[Case]) -> ModeSet | None:
         """Find the modes and solve the spectrum cases, where a deck asks for them."""
-        if self.model.modes is None and not spectra:
+        if self.model.modal is None and not spectra:
             return None
         from trunnion.dynamics import Dynamics
 
@@ -145,9 +146,14 @@ class Run:
             case_warnings(self.sets, case),
         )
 
+    @staticmethod
+    def hot_set(case: Case) -> str:
+        """Temperature set of a case, "" where it has none."""
+        return next((t.name[1:] for t in case.terms if t.name[0] == "T"), "")
+
     def structure(self, case: Case) -> Structure:
         """Structure for a case: the modulus of its E=, snubbers engaged where it locks them."""
-        which = next((t.name[1:] for t in case.terms if t.name[0] == "T"), "") if case.hot else ""
+        which = self.hot_set(case) if case.hot else ""
         return self.structure_of(which, snubbed=case.snubbers == "LOCKED")
 
     def structure_of(self, which: str, *, snubbed: bool = False) -> Structure:
@@ -200,9 +206,23 @@ class Run:
                 cause=f"it starts from {case.start}, which has no answer",
             )
         origin = self.ended[case.start] if case.start else None
-        if origin is not None:
-            origin = replace(origin, point=origin.point.copy())
-        result, end = answer(structure, question, origin, prepared)
+        result, end = self.go_on(case, question, origin, prepared)
         if end is not None:
             self.ended[case.name] = end
         return result
+
+    def go_on(
+        self,
+        case: Case,
+        question: Question,
+        origin: Origin | None,
+        prepared: tuple[Point, Solved] | None = None,
+    ) -> tuple[CaseResult, Origin | None]:
+        """Solve one case from where another ended, or from rest."""
+        structure, locked = self.structure(case), case.snubbers == "LOCKED"
+        if origin is not None:
+            loads, origin = go_on(self.system, structure, origin, question.loads, locked=locked)
+            question = replace(question, loads=loads)
+        elif locked:
+            origin = locked_at_rest(structure)
+        return answer(structure, question, origin, prepared)

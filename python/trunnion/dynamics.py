@@ -28,7 +28,7 @@ class Dynamics:
 
     def __init__(self, run: "Run") -> None:
         self.run = run
-        self.card = run.model.modes or DEFAULT
+        self.card = run.model.modal or DEFAULT
         self.cause: str | None = None
         self.modes: ModeSet | None = None
         structure, state = self._about()
@@ -41,9 +41,7 @@ class Dynamics:
         if self.card.friction > 0.0:
             frozen, keep = with_friction(system, state, frozen, keep, self.card.friction)
         masses = model_masses(run.model, system)
-        self.modes, self.pencil = modes_of(
-            frozen, masses, self.card, run.ledger, structure, keep
-        )
+        self.modes, self.pencil = modes_of(frozen, masses, self.card, run.ledger, structure, keep)
 
     def _about(self) -> tuple[Structure, State | None]:
         """The structure and the state that is frozen; without ABOUT= the pipe at rest."""
@@ -59,15 +57,7 @@ class Dynamics:
         if self.modes is None:
             yield from (self._refused(case) for case in cases)
             return
-        pencil = self.pencil
-
-        def inertia(x: np.ndarray) -> np.ndarray:
-            product: np.ndarray = pencil.mass_product(x.reshape(1, -1)).reshape(x.shape)
-            return product
-
-        solver = SpectrumPass(
-            self.run.model, self.frozen, self.modes, pencil.structure, inertia
-        )
+        solver = SpectrumPass(self.run.model, self.frozen, self.modes, self.pencil)
         for case in cases:
             yield solver.solve(case)
 

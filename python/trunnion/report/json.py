@@ -12,6 +12,7 @@ from trunnion.arrays import F8, CaseResult, Certificate, Results, System
 from trunnion.balance import load_sum, local_end_forces, reaction_sum
 from trunnion.interior import mid_of_bend
 from trunnion.report.encode import dump, finite, lines, listing, records, rows, short, words
+from trunnion.report.json_modes import mode_entries
 from trunnion.report.json_runs import cycle_entries, envelope_entries, frozen_entries
 from trunnion.report.json_supports import support_entries
 from trunnion.stresses import end_stresses
@@ -34,6 +35,8 @@ def json_report(results: Results) -> bytes:
     }
     if results.cycles:
         parts["cycles"] = cycle_entries(results)
+    if results.modes is not None:
+        parts["modes"] = mode_entries(results.modes, results.system)
     parts["warnings"] = dump(list(results.warnings))
     parts["work"] = dump(results.work)
     return (lines(parts) + "\n").encode()
