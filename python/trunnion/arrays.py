@@ -438,8 +438,8 @@ class Results:
     warnings: tuple[str, ...] = ()
     work: dict[str, int] = field(default_factory=dict)
     cycles: dict[str, CycleResult] = field(default_factory=dict)
-    modes: ModeSet | None = None  # where the deck asks for them
     base: System | None = None  # the system whose contacts have gaps; cases may have others
+    modes: ModeSet | None = None  # where the deck asks for them
 
     def __getitem__(self, name: str) -> CaseResult:
         """Return the case called `name`."""

@@ -1,6 +1,8 @@
 """The input echo shows what occasional loads and dynamics depend on."""
 
+import json
 import re
+from pathlib import Path
 
 import pytest
 
@@ -62,3 +64,23 @@ def test_groups_modes_cycles_and_how_a_spectrum_case_combines(echo):
     options = part(echo, "LOAD CASES")[-1]
     assert options[0] == "RS"
     assert {"MODAL=CQC", "DAMPING=0.02", "GROUPS=ABS", "MISSING=ON", "ZPA=0.3"} <= set(options)
+
+
+def test_json_has_the_winds_with_their_model():
+    from trunnion.analysis import solve
+    from trunnion.report.json import json_report
+
+    model = read_text(
+        "UNITS m N Pa C\nMATERIAL S E=2e11 DENSITY=7850\nSECTION P OD=0.2 WALL=0.01\nANCHOR 10\n"
+        "PIPE 10 20 DY=4\nWIND WIND1 DIR=(1,0,0) PRESSURE=(0,500),(10,500) SHAPE=0.7\n"
+        "CASE SUS = W\nCASE BLOW = WIND1 ABOUT=SUS\n",
+        "wind.inp",
+    )
+    results = solve(model)
+    found = json.loads(json_report(results, model))["winds"]["WIND1"]
+    assert found["elements"][0]["load"] == pytest.approx([500 * 0.7 * 0.2, 0, 0])
+    assert found["elements"][0]["pressure"] == 500
+    assert found["asce7"] is None
+    page = (Path(__file__).parents[2] / "docs" / "json_layout.md").read_text()
+    assert all(f"`{key}`" in page for key in [*found, *found["elements"][0]])
+    assert "winds" not in json.loads(json_report(results))
