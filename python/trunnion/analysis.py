@@ -99,7 +99,9 @@ class Run:
         inorder = {case.name: self.found[case.name] for case in self.model.cases}
         work = self.ledger.snapshot()
         warnings = (self.refused_modes,) if self.refused_modes else ()
-        return Results(self.model.title, inorder, warnings, work, cycles, modes, self.system)
+        return Results(
+            self.model.title, inorder, warnings, work, cycles, modes=modes, base=self.system
+        )
 
     def _dynamics(self, spectra: list[Case]) -> ModeSet | None:
         """Find the modes and solve the spectrum cases, where a deck asks for them."""
