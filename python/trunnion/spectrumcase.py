@@ -68,7 +68,8 @@ class SpectrumPass:
     def shapes(self) -> Answers:
         """Forces of the mass-normalised shapes."""
         m = self.modes
-        return recover(self.structure, m, self.system, m.shape, m.shape_low)
+        inertia = m.shape * ((2.0 * np.pi * m.frequency) ** 2)[:, None, None]
+        return recover(self.pencil, m, self.system, m.shape, m.shape_low, inertia)
 
     def solve(self, case: Case) -> CaseResult:
         """Solve one response spectrum case.
@@ -118,7 +119,7 @@ class SpectrumPass:
 
     def _left_out(self, use: SpectrumUse, pushes: list[Push]) -> Answers:
         """What each shock does to the mass that the modes leave out; an item a shock."""
-        u = []
+        u, inertia = [], []
         for push in pushes:
             shock, modes = push.shock, self.modes
             r = influence(self.structure, push.moves, AXES[shock.direction])
@@ -128,8 +129,11 @@ class SpectrumPass:
             zpa = zero_period(shock, self.model.spectra[shock.spectrum], use.zpa)
             part = missed(rigid, flat, modes.frequency, push.participation, zpa)
             u.append(part.reshape(-1, 6))
+            carried = np.tensordot(push.participation, modes.shape, axes=1)
+            inertia.append(zpa * (r - carried))
         every = np.array(u)
-        return recover(self.structure, self.modes, self.system, every, np.zeros_like(every))
+        low = np.zeros_like(every)
+        return recover(self.pencil, self.modes, self.system, every, low, np.array(inertia))
 
     def _largest(self, name: str, use: SpectrumUse, pushes: list[Push], left: Answers | None) -> F8:
         """Combine one kind of answer over all shocks."""

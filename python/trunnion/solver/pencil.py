@@ -41,7 +41,7 @@ class Pencil:
         assert not len(s.sliders.node)
         if not rotary:
             masses = masses.without_rotary(torsion=not lumped)
-        self.structure = structure
+        self.structure, self.masses, self.lumped = structure, masses, lumped
         self.mass = np.zeros(len(p.row))
         if len(structure.ends):
             kernels.assemble_mass(

@@ -6,6 +6,8 @@ import numpy as np
 
 from trunnion.arrays import B1, F8, ModeSet, System
 from trunnion.balance import local_forces
+from trunnion.solver.inertia import element_inertia
+from trunnion.solver.pencil import Pencil
 from trunnion.solver.structure import Point, Sliding, Structure
 from trunnion.supports import contact_sums
 
@@ -25,19 +27,23 @@ class Answers:
     card_force: F8
 
 
-def recover(structure: Structure, modes: ModeSet, system: System, u: F8, low: F8) -> Answers:
-    """End forces and support forces of displacements u + low (m, n_node, 6), without loads.
+def recover(pencil: Pencil, modes: ModeSet, system: System, u: F8, low: F8, inertia: F8) -> Answers:
+    """End forces and support forces of displacements u + low (m, n_node, 6).
 
     Parameters
     ----------
-    structure : of the modes' system, which may have extra nodes.
+    pencil : of the modes' system, which may have extra nodes.
+    inertia : (m, n_node, 6) what M takes to the loads that make these displacements.
     system : the model's; elements that were cut show the two ends that it has.
     """
     n_node, n_elem = len(system.labels), len(system.kind)
+    structure = pencil.structure
+    inside = element_inertia(pencil, inertia)
     ends, reactions = [], []
-    for high, rest in zip(u, low, strict=True):
+    for high, rest, own in zip(u, low, inside, strict=True):
         point = Point(np.ascontiguousarray(high), np.ascontiguousarray(rest))
         _, end, response = structure.residual(point, _without_friction(structure), structure.still)
+        end = end - own
         ends.append(np.stack([end[:n_elem, 0], end[modes.last, 1]], axis=1))
         reactions.append(response.reaction[: len(system.contacts.k)])
     m = len(u)
