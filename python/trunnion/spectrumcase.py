@@ -35,6 +35,7 @@ from trunnion.solver.supportmotion import (
 AXES = {"X": 0, "Y": 1, "Z": 2}
 NAMES = ("u", "end_force", "local_force", "reaction", "card_force")
 RESIDUAL = 1e-9  # of a mode whose forces may be reported
+ENOUGH = 0.9  # part of the mass below which a case without missing mass warns
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,7 +100,7 @@ class SpectrumPass:
             converged=certificate.passed,
             cause=None if certificate.passed else f"{certificate.where} is not accurate",
             certificate=certificate,
-            warnings=_warnings(self.modes),
+            warnings=_warnings(self.modes, use),
             linear=False,
             gathered=sizes(found["card_force"], found["local_force"]),
         )
@@ -181,10 +182,17 @@ def _supported(group: Group, system: System) -> set[int]:
     return {index[node] for node in group.nodes}
 
 
-def _warnings(modes: ModeSet) -> tuple[str, ...]:
-    if modes.proven:
-        return ()
-    return ("the count of modes is not proven: some may be missing from the combination",)
+def _warnings(modes: ModeSet, use: SpectrumUse) -> tuple[str, ...]:
+    """What may be missing from the combination: modes, and the mass that they do not carry."""
+    found = []
+    if not modes.proven:
+        found.append("the count of modes is not proven: some may be missing from the combination")
+    share = modes.effective_mass.sum(axis=0) / np.where(modes.total_mass > 0.0, modes.total_mass, 1)
+    shaken = dict.fromkeys(shock.direction for shock in use.shocks)
+    low = [f"{100 * share[AXES[d]]:.0f} % in {d}" for d in shaken if share[AXES[d]] < ENOUGH]
+    if low and not use.missing_mass:
+        found.append(f"the modes carry {', '.join(low)} of the mass; MISSING=ON adds the rest")
+    return tuple(found)
 
 
 def _state(system: System, found: dict[str, F8]) -> State:

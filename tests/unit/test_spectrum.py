@@ -117,7 +117,7 @@ def scene(deck):
 
 def some(modes, keep):
     """Only some of the modes."""
-    names = ("frequency", "shape", "shape_low", "participation", "residual")
+    names = ("frequency", "shape", "shape_low", "participation", "effective_mass", "residual")
     return replace(modes, **{name: getattr(modes, name)[keep] for name in names})
 
 
@@ -231,6 +231,15 @@ def test_missing_mass_is_static(cantilever):
         assert force[1] == pytest.approx(MASS * 3.0, rel=1e-9)
     without = cantilever.solve(Shock("FLAT", "X"), modes=bending)
     assert without.state.end_force[0, 1, 0] == pytest.approx(0.0, abs=1e-6)
+
+
+def test_missing_mass_warns_unless_it_is_added(cantilever):
+    bending = some(cantilever.modes, slice(2))
+    shocks = Shock("FLAT", "X"), Shock("FLAT", "Y")
+    (warning,) = cantilever.solve(*shocks, modes=bending).warnings
+    assert warning == "the modes carry 0 % in X of the mass; MISSING=ON adds the rest"
+    assert not cantilever.solve(*shocks, modes=bending, missing_mass=True).warnings
+    assert not cantilever.solve(*shocks).warnings
 
 
 def test_missing_mass_of_complete_modes_is_nothing(cantilever):

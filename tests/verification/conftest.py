@@ -10,13 +10,8 @@ import pytest
 import trunnion
 from trunnion.arrays import OPEN, CaseResult, ModeSet, Results, System
 from trunnion.interior import points
-from trunnion.masses import model_masses
 from trunnion.model import Model
-from trunnion.solver.ledger import Ledger
-from trunnion.solver.modal import modes_of
-from trunnion.spectrumcase import SpectrumPass
 from trunnion.supports import card_forces
-from trunnion.system import build_system
 
 MODELS = Path(__file__).parents[2] / "models"
 
@@ -204,11 +199,10 @@ class Shaken:
 
 
 def _shake(model: Model) -> Shaken:
-    """Modes and spectrum cases of a model whose supports all hold both ways."""
-    system = build_system(model)
-    modes, pencil = modes_of(system, model_masses(model, system), model.modal, Ledger())
-    spectra = SpectrumPass(model, system, modes, pencil)
-    return Shaken(model, system, modes, {case.name: spectra.solve(case) for case in model.cases})
+    """Modes and spectrum cases of a model."""
+    results = trunnion.solve(model)
+    cases = {name: case for name, case in results.cases.items() if case.kind == "spectrum"}
+    return Shaken(model, next(iter(cases.values())).system, results.modes, cases)
 
 
 @cache
