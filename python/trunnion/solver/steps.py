@@ -54,7 +54,8 @@ def solve_case(
         solved = _step(structure, point, law, start, target, solve, plan, history, capacity)
         if not solved.settled:
             break
-        law = replace(solved.sliding, datum=commit(law.datum, law.kf, solved.response))
+        datum = commit(solved.sliding.datum, law.kf, solved.response)  # of the last sub-step
+        law = replace(solved.sliding, datum=datum)
         capacity = law.mu * solved.response.normal
         start = target
     assert solved is not None
@@ -231,24 +232,32 @@ def _closing(
     closed: B1,
     history: History,
 ) -> float | None:
-    """Smallest load fraction at which one of the contacts closes, by bisection and secant."""
+    """Smallest load fraction at which one of the contacts closes: just before it does.
+
+    A secant through the last two open points; bisection every third time.  Only open points tell
+    a distance: a closed contact shows its penetration, which is next to nothing at any load.
+    """
+    c = structure.contacts
+    near = LOCATED * float(c.gap[closed][np.isfinite(c.gap[closed])].min())
     a, b = 0.0, 1.0
     fa = float(_opening(structure, before, start)[closed].min())
-    fb = -1.0
+    slope = 0.0
     for i in range(60):
-        t = 0.5 * (a + b) if i % 2 or fb < -0.5 * fa else a + (b - a) * fa / (fa - fb)
+        aim = a + (fa - 0.5 * near) / slope if slope > 0.0 and i % 3 else 0.5 * (a + b)
+        t = aim if a < aim < b else 0.5 * (a + b)
         point = before.copy()
         part = start.toward(target, t)
         if not solve(structure, point, law, part, history).settled:
             return None
         f = float(_opening(structure, point, part)[closed].min())
-        if abs(f) <= LOCATED * structure.size or b - a <= 1e-14:
-            return t
         if f > 0.0:
+            slope = (fa - f) / (t - a)
             a, fa = t, f
         else:
-            b, fb = t, f
-    return b
+            b = t
+        if fa <= near or b - a <= 1e-14:
+            return a
+    return a
 
 
 def _return(point: Point, to: Point) -> None:
