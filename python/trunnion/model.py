@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 Label = str | int
+Points = Sequence[Sequence[float]]
 Value = float | str | Sequence[float] | None
 Word = str | Sequence[float] | tuple[str | Sequence[float], Mapping[str, Value]]
 
@@ -472,6 +473,10 @@ class Model:
         """Add a spring hanger: RATE= LOAD=."""
         self._add("HANGER", (node,), keys)
 
+    def snubber(self, node: Label, direction: str | Sequence[float], **keys: Value) -> None:
+        """Hold X, Y, Z or (a,b,c) in occasional cases and modes only: K= CNODE= NAME=."""
+        self._add("SNUBBER", (node, direction), keys)
+
     def force(self, node: Label, set: str, **keys: Value) -> None:
         """Add a nodal force of set F1 to F9: FX= ... MZ=."""
         self._add("FORCE", (node, set), keys)
@@ -481,16 +486,43 @@ class Model:
         self._add("DISPLACEMENT", (node, set), keys)
 
     def acceleration(self, set: str, **keys: Value) -> None:
-        """Give the uniform acceleration of set U1 to U3 in g: X= Y= Z=."""
+        """Give the uniform acceleration of set U1 to U9 in g: X= Y= Z=."""
         self._add("ACCELERATION", (set,), keys)
 
+    def wind(self, set: str, **keys: Value | Points) -> None:
+        """Give wind WIND1 to WIND9: DIR= with PRESSURE= or VELOCITY= [(z, p), ...], or ASCE7=."""
+        self._add("WIND", (set,), keys)
+
+    def snow(self, weight: float | str) -> None:
+        """Put snow or ice on all pipes [N/m]: set S."""
+        self._add("SNOW", (weight,), {})
+
+    def spectrum(self, name: str, **keys: Value | Points) -> None:
+        """Define a response spectrum: TABLE=[(f, a), ...] X= Y= INTERP=."""
+        self._add("SPECTRUM", (name,), keys)
+
+    def group(self, name: str, *nodes: Label) -> None:
+        """Name supports that move together in independent support motion."""
+        self._add("GROUP", (name, *nodes), {})
+
+    def modes(self, n: int, **keys: Value) -> None:
+        """Ask for n modes: FMAX= ABOUT= MASS= MESH= ROTARY= FRICTION=."""
+        self._add("MODES", (n,), keys)
+
     def case(self, name: str, loads: str, **keys: Value) -> None:
-        """Define a load case: "W + P1 + T1"; FROM= STEPS= MUX= E= EVENTS= ITERATION= SNUBBERS=."""
+        """Define a load case "W + P1 + T1": FROM= ABOUT= ON= STEPS= MUX= E= SNUBBERS= ...
+
+        "SPECTRUM(SSE,X)" makes it a response spectrum; NONLINEAR=True goes with ABOUT=.
+        """
         self._add("CASE", (name, loads), keys)
 
     def comb(self, name: str, expression: str) -> None:
         """Define a combination of results: "OPE - SUS"."""
         self._add("COMB", (name, expression), {})
+
+    def cycle(self, name: str, *cases: str, **keys: Value) -> None:
+        """Follow cases one after another until the loop repeats: TIMES= FROM=."""
+        self._add("CYCLE", (name, *cases), keys)
 
     def check(self) -> None:
         """Raise ModelError with every fault that shows without geometry."""
@@ -504,7 +536,7 @@ class Model:
 
         return write(self)
 
-    def _add(self, keyword: str, args: tuple[Any, ...], keys: Mapping[str, Value]) -> None:
+    def _add(self, keyword: str, args: tuple[Any, ...], keys: Mapping[str, Any]) -> None:
         """Add one record at the place of the call."""
         from trunnion.deck.api import add
 

@@ -39,7 +39,7 @@ def test_examples_of_the_table_make_a_deck():
     lines += ["PIPE 20 30 DX=6000", "PIPE 30 40 DZ=4000", "PIPE 50 70 DX=500", "PIPE 70 25 DX=500"]
     lines += ["PIPE 25 45 DY=500", "PIPE 45 60 DY=500", "CASE SUS = W"]
     model = read_text("\n".join(lines))
-    assert len(model.supports) == 3
+    assert len(model.supports) == 4
     assert model.bends[0].radius == 0.381
     assert read_text(model.deck()) == model
 

@@ -6,7 +6,7 @@ from typing import Any
 from trunnion.deck.checks import check
 from trunnion.deck.context import Carried, Context
 from trunnion.deck.directions import read_directions
-from trunnion.deck.equations import check_case_name, read_expression
+from trunnion.deck.equations import check_case_name, read_expression, read_list, require_keys
 from trunnion.deck.fields import fields_of, read_fields, read_key
 from trunnion.deck.interpreter import apply
 from trunnion.deck.keywords import KEYWORDS
@@ -40,16 +40,24 @@ def add(
     fields = fields_of(_SI)
     given = [(k.upper(), _plain(v)) for k, v in keys.items() if v is not None]
     form = KEYWORDS[keyword].form
-    if form == "equation":
+    if form in ("equation", "list"):
+        flags = {flag for flag, _ in KEYWORDS[keyword].flags}
         for item in given:
-            read_key(record.keys, None, item, keyword, fields.readers[keyword], complain)
+            if item[0] in flags:
+                record.keys.update({item[0]: True} if item[1] is True else {})
+            else:
+                read_key(record.keys, None, item, keyword, fields.readers[keyword], complain)
         record.args.append(str(args[0]).strip().upper())
         check_case_name(record, None, complain)
-        read_expression(record, str(args[1]), 0, complain)
+        if form == "equation":
+            read_expression(record, str(args[1]), 0, complain)
+        else:
+            read_list(record, ",".join(map(str, args[1:])), (0, 0), complain)
+            require_keys(record, complain)
     elif form == "directions":
         read_directions(record, [str(args[0]), *given, *_flat(args[1:])], fields, complain)
     else:
-        read_fields(record, [*map(str, args), *given], fields, complain)
+        read_fields(record, [*map(_word, args), *given], fields, complain)
     faults = [Fault(place, record.head, message, mark) for message, mark in heard]
     carried = model.carried or Carried()
     kept = carried.section, carried.material, carried.operation
@@ -69,18 +77,23 @@ def _flat(words: tuple[Any, ...]) -> list[Any]:
         keys: Mapping[str, Any] = {}
         if isinstance(word, tuple) and len(word) == 2 and isinstance(word[1], Mapping):
             direction, keys = word
-        if not isinstance(direction, str):
-            direction = f"({','.join(str(float(x)) for x in direction)})"
-        items.append(direction)
+        items.append(_word(direction))
         items += [(str(k).upper(), _plain(v)) for k, v in keys.items() if v is not None]
     return items
+
+
+def _word(value: Any) -> str:
+    """Write a positional as on a card; three numbers are a direction."""
+    if isinstance(value, str) or not hasattr(value, "__iter__"):
+        return str(value)
+    return f"({','.join(str(float(x)) for x in value)})"
 
 
 def _plain(value: Any) -> Any:
     """Make lists and arrays tuples of numbers; all else stays."""
     if isinstance(value, (str, int, float)) or not hasattr(value, "__iter__"):
         return value
-    return tuple(value)
+    return tuple(map(_plain, value))
 
 
 def check_model(model: Model) -> None:

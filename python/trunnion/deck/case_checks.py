@@ -1,41 +1,52 @@
 """Checks of the cases of a whole model: names, load sets, references, loops."""
 
 from collections.abc import Iterator, Set
+from typing import NamedTuple
 
 from trunnion.deck import expressions as ex
-from trunnion.deck.record import Fault
+from trunnion.deck.record import Fault, Mark
 from trunnion.deck.values import nearest
-from trunnion.model import Case, Comb, Model, Place
+from trunnion.default_cases import with_cases
+from trunnion.model import Case, Comb, Cycle, Model, Place
+
+Named = Case | Comb | Cycle
 
 
 def check_cases(model: Model, broken: Set[str]) -> Iterator[Fault]:
     """Find every fault of the cases; words in `broken` had an error already."""
-    yield from _names(model)
+    if not broken:
+        model = with_cases(model)
+    named: list[Named] = [*model.cases, *model.cycles]
+    yield from _names(named)
     yield from _load_sets(model, broken)
-    yield from _references(model, broken)
+    yield from _spectra(model, broken)
+    yield from _references(model, named, broken)
 
 
-def _names(model: Model) -> Iterator[Fault]:
-    """Check that names of cases are used once."""
+def _names(named: list[Named]) -> Iterator[Fault]:
+    """Check that names of cases, combinations and cycles are used once."""
     seen: dict[str, Place] = {}
-    for case in model.cases:
+    for case in named:
         if case.name in seen:
             message = f"case {case.name} is already defined at {seen[case.name]}"
-            yield Fault(case.place, f"{_word(case)} {case.name}", message, case.name)
+            yield Fault(case.place, _head(case), message, case.name)
         seen.setdefault(case.name, case.place)
 
 
-def _word(case: Case | Comb) -> str:
-    """Keyword of a case."""
-    return "CASE" if isinstance(case, Case) else "COMB"
+def _head(case: Named) -> str:
+    """Keyword and name of a case."""
+    return f"{type(case).__name__.upper()} {case.name}"
 
 
-_CARDS = {"T": "OPERATE", "P": "OPERATE", "D": "DISPLACEMENT", "F": "FORCE", "U": "ACCELERATION"}
+_CARDS = {
+    **{"T": "OPERATE", "P": "OPERATE", "D": "DISPLACEMENT", "F": "FORCE", "U": "ACCELERATION"},
+    **{"WIND": "WIND", "S": "SNOW"},
+}
 
 
 def _load_sets(model: Model, broken: Set[str]) -> Iterator[Fault]:
     """Check that every set that a case takes is given by some card."""
-    given: set[str] = set()
+    given: set[str] = {"S"} if model.snows else set()
     operations = {id(p.operation): p.operation for p in model.pipes}
     for operation in operations.values():
         given.update("T" + s for s in operation.t)
@@ -43,50 +54,120 @@ def _load_sets(model: Model, broken: Set[str]) -> Iterator[Fault]:
     given.update("D" + d.set for d in model.displacements)
     given.update("F" + f.set for f in model.forces)
     given.update("U" + a.set for a in model.accelerations)
+    given.update("WIND" + w.set for w in model.winds)
     for case in model.cases:
         if not isinstance(case, Case):
             continue
         for name in dict.fromkeys(term.name for term in case.terms):
-            card = _CARDS.get(name[0]) if len(name) == 2 and name[1].isdigit() else None
-            if card and name not in given and name not in broken:
+            card = _CARDS.get(name.rstrip("123456789")) if name != "U" else None
+            if card and name not in given and name not in broken and card not in broken:
                 before = " before a pipe" if card == "OPERATE" else ""
                 message = f"no {card} card{before} gives {name}"
-                yield Fault(case.place, f"CASE {case.name}", message, name)
-            if name[0] == "U" and case.snubbers is None:
-                message = f"{name} in a CASE needs SNUBBERS=FREE or SNUBBERS=LOCKED"
-                yield Fault(case.place, f"CASE {case.name}", message, name)
+                yield Fault(case.place, _head(case), message, name)
+            occasional = name[0] == "U" or name.startswith("WIND")
+            if occasional and case.about is None and case.snubbers is None:
+                message = f"{name} needs ABOUT=, or SNUBBERS=FREE or LOCKED"
+                yield Fault(case.place, _head(case), message, name)
 
 
-def _references(model: Model, broken: Set[str]) -> Iterator[Fault]:
-    """Check that FROM and COMB name cases, and that none leads back to itself."""
-    cases = {case.name: case for case in model.cases}
-    if not model.cases and not broken:
-        yield Fault(Place("", 0), "", "no CASE card; write for instance CASE SUS = W")
-    links: dict[str, list[str]] = {}
+def _spectra(model: Model, broken: Set[str]) -> Iterator[Fault]:
+    """Check what response spectrum cases name, and that there are modes for them."""
+    groups = {group.name for group in model.groups}
     for case in model.cases:
-        head = f"{_word(case)} {case.name}"
-        if isinstance(case, Case):
-            wanted = [case.start] if case.start else []
-        else:
-            wanted = list(dict.fromkeys(ex.case_names(case.expression)))
-        links.setdefault(case.name, [])
-        for name in wanted:
-            mark = "FROM=" if isinstance(case, Case) else name
-            if name in cases:
-                links[case.name].append(name)
-                if isinstance(case, Case) and isinstance(cases[name], Comb):
-                    message = f"FROM={name}: a COMB has no state to start from"
-                    yield Fault(case.place, head, message, mark)
-            elif name not in broken:
-                yield Fault(
-                    case.place, head, f"case {name} is not defined{nearest(name, set(cases))}", mark
-                )
+        if not isinstance(case, Case) or case.spectrum is None:
+            continue
+        head = _head(case)
+        if model.modal is None and "MODES" not in broken:
+            message = "a response spectrum needs modes; write a MODES card"
+            yield Fault(case.place, head, message, "SPECTRUM")
+        shocks = case.spectrum.shocks
+        for name in dict.fromkeys(shock.spectrum for shock in shocks):
+            if name not in model.spectra and name not in broken:
+                message = f"spectrum {name} is not defined{nearest(name, model.spectra)}"
+                yield Fault(case.place, head, message, name)
+        for name in dict.fromkeys(shock.group for shock in shocks if shock.group):
+            if name not in groups and name not in broken:
+                message = f"group {name} is not defined{nearest(name, groups)}"
+                yield Fault(case.place, head, message, name)
+        if 0 < sum(shock.group is None for shock in shocks) < len(shocks):
+            message = "SPECTRUM(...) with and without a group: motion is uniform or by groups"
+            yield Fault(case.place, head, message, "SPECTRUM")
+
+
+class Link(NamedTuple):
+    """One name that a record needs: where it stands, and whether it must have a state."""
+
+    name: str
+    mark: Mark
+    word: str  # FROM, ABOUT, ON; "" in expressions and lists
+
+
+def links_of(case: Named) -> list[Link]:
+    """Names that a case, combination or cycle needs."""
+    if isinstance(case, Comb):
+        return [Link(name, name, "") for name in dict.fromkeys(ex.case_names(case.expression))]
+    keys = [("FROM", case.start)]
+    links = []
+    if isinstance(case, Case):
+        keys += [("ABOUT", case.about), ("ON", case.on)]
+    else:
+        links = [Link(name, name, "CYCLE") for name in dict.fromkeys(case.cases)]
+    return links + [Link(name, f"{word}=", word) for word, name in keys if name is not None]
+
+
+def _references(model: Model, named: list[Named], broken: Set[str]) -> Iterator[Fault]:
+    """Check that names of cases are those of cases, and that none leads back to itself."""
+    cases: dict[str, Named] = {case.name: case for case in named}
+    links: dict[str, list[Link]] = {}
+    for case in named:
+        mine = links.setdefault(case.name, [])
+        for link in links_of(case):
+            fault = _refused(link, cases, broken)
+            if fault and link.name != case.name:
+                yield Fault(case.place, _head(case), fault, link.mark)
+            if link.name in cases:
+                mine.append(link)
     yield from _loops(cases, links)
+    if model.modal is not None and model.modal.about is not None:
+        link = Link(model.modal.about, "ABOUT=", "ABOUT")
+        fault = _refused(link, cases, broken)
+        if fault:
+            yield Fault(model.modal.place, "MODES", fault, link.mark)
 
 
-def _loops(cases: dict[str, Case | Comb], links: dict[str, list[str]]) -> Iterator[Fault]:
+def _refused(link: Link, cases: dict[str, Named], broken: Set[str]) -> str:
+    """Say why a case cannot stand where a link names it, or nothing."""
+    case, before = cases.get(link.name), f"{link.word}={link.name}: "
+    if case is None:
+        known = link.name in broken
+        return "" if known else f"case {link.name} is not defined{nearest(link.name, set(cases))}"
+    if link.word in ("", "CYCLE"):
+        before = ""
+    if isinstance(case, Cycle):
+        return f"{before}{link.name} is a CYCLE, not a case"
+    if link.word == "" or (isinstance(case, Case) and has_state(case)):
+        return ""
+    if isinstance(case, Comb):
+        return f"{before}a COMB has no state to start from{_to_follow(link)}"
+    if case.spectrum:
+        return f"{before}a response spectrum has no contact state"
+    word = "ABOUT" if case.about else "ON"
+    return f"{before}{case.name} is a linear case itself ({word}=), without a contact state"
+
+
+def _to_follow(link: Link) -> str:
+    """Say what a cycle does with its cases."""
+    return f"; {link.name} cannot be followed" if link.word == "CYCLE" else ""
+
+
+def has_state(case: Case) -> bool:
+    """Tell whether a case ends in a contact state that others may start from or freeze."""
+    return case.about is None and case.on is None and case.spectrum is None
+
+
+def _loops(cases: dict[str, Named], links: dict[str, list[Link]]) -> Iterator[Fault]:
     """Find the cases that need themselves: take away those that need nothing, again and again."""
-    needs = {name: set(others) for name, others in links.items()}
+    needs = {name: {link.name for link in mine} for name, mine in links.items()}
     users: dict[str, list[str]] = {name: [] for name in needs}
     for name, others in needs.items():
         for other in others:
@@ -99,15 +180,16 @@ def _loops(cases: dict[str, Case | Comb], links: dict[str, list[str]]) -> Iterat
             if not needs[user]:
                 free.append(user)
         del needs[name]
+    order = {name: i for i, name in enumerate(cases)}
     while needs:
         loop = [next(iter(needs))]
-        while (following := min(needs[loop[-1]], key=list(cases).index)) not in loop:
+        while (following := min(needs[loop[-1]], key=order.__getitem__)) not in loop:
             loop.append(following)
         loop = loop[loop.index(following) :]
-        case = cases[loop[0]]
+        case, second = cases[loop[0]], loop[1 % len(loop)]
         chain = " -> ".join([*loop, loop[0]])
-        mark = "FROM=" if isinstance(case, Case) else loop[1 % len(loop)]
-        yield Fault(case.place, f"{_word(case)} {case.name}", f"needs itself: {chain}", mark)
+        mark = next(link.mark for link in links[loop[0]] if link.name == second)
+        yield Fault(case.place, _head(case), f"needs itself: {chain}", mark)
         dead = set(loop)
         while dead:  # and whoever needs the loop
             needs = {n: o for n, o in needs.items() if n not in dead}

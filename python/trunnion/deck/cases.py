@@ -3,17 +3,25 @@
 from trunnion.deck import expressions as ex
 from trunnion.deck.context import Context
 from trunnion.deck.record import Record
-from trunnion.model import Case, Comb
+from trunnion.model import Case, Comb, SpectrumUse
+
+_SPECTRUM = ("MODAL", "SPATIAL", "GROUPS", "DAMPING", "DURATION", "ZPA", "MISSING")
+_WITHOUT_HISTORY = ("STEPS", "MUX", "EVENTS", "ITERATION")
 
 
 def case(run: Context, record: Record) -> None:
-    """CASE: a sum of load sets; of names of cases only it is a COMB."""
+    """CASE: a sum of load sets, or of spectra; of names of cases only it is a COMB."""
     cases = {case.name for case in run.model.cases}
     names = ex.case_names(record.expression)
-    if names and not ex.has_vector(record.expression) and cases.issuperset(names):
+    if ex.has("shock", record.expression):
+        spectrum_case(run, record)
+        return
+    if names and not ex.has("vector", record.expression) and cases.issuperset(names):
         for key in record.keys:
-            message = f"{key}: this sums results of cases, a COMB, which has no {key}"
-            run.complain(record, message, f"{key}=")
+            mark = key if key == "NONLINEAR" else f"{key}="
+            run.complain(
+                record, f"{key}: this sums results of cases, a COMB, which has no {key}", mark
+            )
         comb(run, record)
         return
     if not _are_load_sets(run, record, names, cases):
@@ -22,8 +30,9 @@ def case(run: Context, record: Record) -> None:
     try:
         items = ex.terms(record.expression)
     except ValueError as error:
-        run.complain(record, str(error), "ABS")
+        run.complain(record, str(error), str(error).split()[0])
         return
+    _keys_fit(run, record)
     keys = record.keys
     run.keep(
         run.model.cases,
@@ -38,8 +47,30 @@ def case(run: Context, record: Record) -> None:
             keys.get("ITERATION"),
             keys.get("SNUBBERS"),
             record.place,
+            keys.get("ABOUT"),
+            keys.get("ON"),
+            "NONLINEAR" in keys,
         ),
     )
+
+
+def _keys_fit(run: Context, record: Record) -> None:
+    """Complain of keys of a CASE that exclude each other or would do nothing."""
+    keys = record.keys
+    bases = [key for key in ("FROM", "ABOUT", "ON") if key in keys]
+    if len(bases) > 1:
+        message = f"{bases[0]} and {bases[1]}: a case has one of FROM, ABOUT and ON"
+        run.complain(record, message, f"{bases[1]}=")
+    if "NONLINEAR" in keys and "ABOUT" not in keys:
+        run.complain(record, "NONLINEAR goes with ABOUT=", "NONLINEAR")
+    elif "NONLINEAR" not in keys and bases[:1] in (["ABOUT"], ["ON"]):
+        for key in _WITHOUT_HISTORY:
+            if key in keys:
+                message = f"{key} does nothing in a linear case without friction, {bases[0]}="
+                run.complain(record, message, f"{key}=")
+    for key in _SPECTRUM:
+        if key in keys:
+            run.complain(record, f"{key} goes with SPECTRUM(...) only", f"{key}=")
 
 
 def _are_load_sets(run: Context, record: Record, names: list[str], cases: set[str]) -> bool:
@@ -54,10 +85,39 @@ def _are_load_sets(run: Context, record: Record, names: list[str], cases: set[st
     return not wrong
 
 
+def spectrum_case(run: Context, record: Record) -> None:
+    """CASE of SPECTRUM(...) terms: a response spectrum, combined as its keys say."""
+    keys = record.keys
+    try:
+        shocks = ex.shocks(record.expression)
+    except ValueError as error:
+        run.complain(record, str(error), "SPECTRUM")
+        return
+    for key in keys:
+        if key not in _SPECTRUM:
+            mark = key if key == "NONLINEAR" else f"{key}="
+            run.complain(
+                record, f"{key} does not go with SPECTRUM(...); modes say about what", mark
+            )
+    zpa = keys.get("ZPA")
+    use = SpectrumUse(
+        tuple(shocks),
+        keys.get("MODAL", "SRSS"),
+        keys.get("SPATIAL", "SRSS"),
+        keys.get("GROUPS", "ABS"),
+        keys.get("DAMPING", 0.02),
+        keys.get("DURATION", 10.0),
+        keys.get("MISSING") == "ON",
+        None if zpa is None else zpa * run.model.settings.g,
+    )
+    run.keep(run.model.cases, Case(record.args[0], (), place=record.place, spectrum=use))
+
+
 def comb(run: Context, record: Record) -> None:
     """COMB: an expression of names of cases."""
     expression = record.expression
-    names = ["U"] if ex.has_vector(expression) else []
+    words = [("vector", "U"), ("shock", "SPECTRUM")]
+    names = [name for word, name in words if ex.has(word, expression)]
     for name in dict.fromkeys([*names, *ex.case_names(expression)]):
         if name in ex.RESERVED:
             run.complain(record, f"{name} is a load set; COMB sums results of cases", name)

@@ -97,6 +97,7 @@ def _nodes(model: Model, broken: Set[str]) -> Iterator[Fault]:
     uses += [(s.cnode, s.place, s.kind.upper(), "CNODE=") for s in model.supports if s.cnode]
     uses += [(d.node, d.place, "DISPLACEMENT", d.node) for d in model.displacements]
     uses += [(f.node, f.place, "FORCE", f.node) for f in model.forces]
+    uses += [(n, g.place, f"GROUP {g.name}", n) for g in model.groups for n in g.nodes]
     for label, place, word, mark in uses:
         if label in known or not broken.isdisjoint((label, label[:-1])):
             continue

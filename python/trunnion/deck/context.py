@@ -51,6 +51,8 @@ class Context:
         carried.broken.update(record.args)
         carried.broken.update(record.keys)
         carried.broken.update(v for v in record.keys.values() if isinstance(v, str))
+        if record.keyword in ("SPECTRUM", "GROUP", "MODES"):
+            carried.broken.add(record.keyword)
         if record.keyword == "MATERIAL" and record.args:
             carried.material = record.args[0]
         if record.keyword == "SECTION" and record.args:

@@ -1,8 +1,9 @@
-"""CASE and COMB cards: name = expression KEY=VALUE ..."""
+"""CASE, COMB, CYCLE and GROUP cards: name = expression or list KEY=VALUE ..."""
 
 import re
 
 from trunnion.deck import expressions as ex
+from trunnion.deck import values as va
 from trunnion.deck.fields import Complain, Fields, read_key
 from trunnion.deck.keywords import KEYWORDS
 from trunnion.deck.record import Mark, Record
@@ -12,7 +13,7 @@ _NAME = re.compile(r"[A-Z_][A-Z0-9_.]{0,31}")
 
 
 def read_equation(record: Record, text: str, at: int, fields: Fields, complain: Complain) -> None:
-    """Fill a CASE or COMB from "name = expression KEY=VALUE ...", which starts at `at`."""
+    """Fill a record from "name = right side KEY=VALUE ...", which starts at `at`."""
     name, equals, rest = text.partition("=")
     form = f"write {record.keyword} name = ..."
     name = name.strip()
@@ -27,6 +28,7 @@ def read_equation(record: Record, text: str, at: int, fields: Fields, complain: 
     check_case_name(record, (at, at + len(name)), complain)
     start = at + text.index("=") + 1
     keys_from = len(rest)
+    rest = _take_flags(record, rest)
     spaced = re.sub(r"(\s*)=(\s*)", lambda m: "=" + " " * (len(m[0]) - 1), rest)
     found = list(_KEYS.finditer(spaced))
     if found:
@@ -38,7 +40,47 @@ def read_equation(record: Record, text: str, at: int, fields: Fields, complain: 
             value = spaced[match.end() : stop].strip()
             span = (start + match.start(1), start + stop)
             read_key(record.keys, span, (key, value), record.keyword, readers, complain)
-    read_expression(record, rest[:keys_from], start, complain)
+    right = rest[:keys_from]
+    if KEYWORDS[record.keyword].form == "list":
+        read_list(record, right, (start, start + len(right)), complain)
+        require_keys(record, complain)
+    else:
+        read_expression(record, right, start, complain)
+
+
+def _take_flags(record: Record, rest: str) -> str:
+    """Take words that are keys without value out of the text, leaving their room blank."""
+    for flag, _ in KEYWORDS[record.keyword].flags:
+        found = re.search(rf"(?<=[\s)]){flag}(?=\s|$)", rest, re.I)
+        if found:
+            record.keys[flag] = True
+            rest = rest[: found.start()] + " " * len(flag) + rest[found.end() :]
+    return rest
+
+
+def require_keys(record: Record, complain: Complain) -> None:
+    """Complain of keys that must be there."""
+    for key in KEYWORDS[record.keyword].keys:
+        if key.required and key.name not in record.keys:
+            complain(f"{key.name}= is missing", None)
+
+
+def read_list(record: Record, text: str, span: tuple[int, int], complain: Complain) -> None:
+    """Read names or labels with commas between them into the record."""
+    keyword = KEYWORDS[record.keyword]
+    if not text.strip():
+        complain(f"nothing stands after =; write for instance {keyword.example}", None)
+        return
+    for part in text.split(","):
+        word = part.strip()
+        if len(word.split()) > 1 or not word:
+            what = f"a comma is missing in {word}" if word else "a name is missing at a comma"
+            complain(f"{what}; write for instance {keyword.example}", span)
+            return
+        try:
+            record.items.append(va.label(word) if record.keyword == "GROUP" else va.name(word))
+        except va.WordError as fault:
+            complain(str(fault), word)
 
 
 def check_case_name(record: Record, mark: Mark, complain: Complain) -> None:

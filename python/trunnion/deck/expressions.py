@@ -1,33 +1,32 @@
 """Grammar of CASE and COMB: sums of load sets, and expressions of case names.
 
 expression = [+|-] product {(+|-) product}
-product    = number * product | (expression) | ABS(expression) | U(x,y,z) | name
+product    = number * product | (expression) | function(expression {, expression}) | name
+           | U(x,y,z) | SPECTRUM(name,direction[,factor[,group]])
 """
 
 import re
 from typing import Any, NoReturn
 
+from trunnion.deck.keywords import ACCELERATIONS, KEYWORDS, WINDS
 from trunnion.deck.values import nearest
-from trunnion.model import SETS, Expression, Term
+from trunnion.model import INFINITE, SETS, Case, Expression, Shock, Term
 
 MAX_NESTING = 50
 MAX_NAMES = 200  # in one expression
-ACCELERATIONS = ("U1", "U2", "U3")
 LOAD_SETS = (
-    *("W", "WNC", "WW", "H"),
+    *("W", "WNC", "WW", "H", "S"),
     *(letter + s for letter in "TPDF" for s in SETS),
     *ACCELERATIONS,
+    *WINDS,
 )
-FUNCTIONS = ("ABS",)
-_LATER = ("SRSS", "MAX", "MIN", "SIGNMAX", "SCALAR")
+FUNCTIONS = ("ABS", "SRSS", "MAX", "MIN", "SIGNMAX", "SCALAR")
 RESERVED = frozenset(
     (
         *LOAD_SETS,
-        *(f"U{s}" for s in SETS),
-        *(f"WIND{s}" for s in SETS),
-        *("U", "WIND"),
+        *("U", "WIND", "SPECTRUM"),
         *FUNCTIONS,
-        *_LATER,
+        *(flag for flag, _ in KEYWORDS["CASE"].flags),
     )
 )
 
@@ -129,17 +128,22 @@ class _Parser:
             self.fail(f"more than {MAX_NAMES} names", token)
 
     def function(self, text: str) -> Expression:
-        """Read ABS(expression) or U(x,y,z)."""
+        """Read ABS(expression), SRSS(expression, ...), U(x,y,z) or SPECTRUM(...)."""
         named = self.at - 1
         self.at += 1
         if text in FUNCTIONS:
-            inner = self.sum()
+            inner = [self.sum()]
+            while self.peek() == "," and text != "ABS":
+                self.at += 1
+                inner.append(self.sum())
+            if self.peek() == ",":
+                self.fail("ABS takes one expression; write ABS(A) + ABS(B)", named)
             self.take(")")
-            return ("abs", inner)
+            return (text.lower(), *inner)
         if text == "U":
             return self.vector()
-        if text in _LATER:
-            self.fail(f"{text} is not built yet; functions are {' '.join(FUNCTIONS)}", named)
+        if text == "SPECTRUM":
+            return self.shock()
         self.fail(f"{text} is no function; functions are {' '.join(FUNCTIONS)}", named)
 
     def vector(self) -> Expression:
@@ -159,6 +163,32 @@ class _Parser:
         self.take(")")
         self.count_name(start)
         return ("vector", *parts)
+
+    def shock(self) -> Expression:
+        """Read the rest of SPECTRUM(name,direction[,factor[,group]])."""
+        start = self.at - 2
+        parts: list[str] = []
+        while not parts or self.peek() == ",":
+            if parts:
+                self.at += 1
+            words = []
+            while self.at < len(self.tokens) and self.peek() not in (",", ")", "("):
+                words.append(self.peek())
+                self.at += 1
+            parts.append("".join(words))
+        self.take(")")
+        self.count_name(start)
+        if not 2 <= len(parts) <= 4 or not all(parts):
+            self.fail("write SPECTRUM(name,direction[,factor[,group]])", start)
+        if parts[1] not in ("X", "Y", "Z"):
+            self.fail(f"direction {parts[1]} of a SPECTRUM is not one of X Y Z", start)
+        try:
+            factor = float(parts[2]) if len(parts) > 2 else 1.0
+        except ValueError:
+            self.fail(f"factor {parts[2]} of a SPECTRUM is not a number", start)
+        if not 0.0 < factor < INFINITE:
+            self.fail(f"factor {parts[2]} of a SPECTRUM must be > 0", start)
+        return ("shock", parts[0], parts[1], factor, parts[3] if len(parts) > 3 else None)
 
 
 def parse(text: str) -> Expression:
@@ -189,7 +219,20 @@ def terms(expression: Expression, factor: float = 1.0) -> list[Term]:
             return terms(a, factor) + terms(b, factor)
         case ("-", tuple(a), tuple(b)):
             return terms(a, factor) + terms(b, -factor)
-    raise ValueError("ABS combines results; it stands on COMB cards only")
+    name = str(expression[0]).upper()
+    raise ValueError(f"{name} combines results; it stands on COMB cards only")
+
+
+def shocks(expression: Expression, factor: float = 1.0) -> list[Shock]:
+    """Multiply a sum of SPECTRUM(...) out to shocks."""
+    match expression:
+        case ("shock", str(name), str(direction), float(own), group):
+            return [Shock(name, direction, factor * own, None if group is None else str(group))]
+        case ("*", float(n), tuple(a)) if n > 0.0:
+            return shocks(a, factor * n)
+        case ("+", tuple(a), tuple(b)):
+            return shocks(a, factor) + shocks(b, factor)
+    raise ValueError("a response spectrum case is a sum of SPECTRUM(...) alone, with + between")
 
 
 def case_names(expression: Any) -> list[str]:
@@ -199,10 +242,10 @@ def case_names(expression: Any) -> list[str]:
     return [n for part in expression[1:] if isinstance(part, tuple) for n in case_names(part)]
 
 
-def has_vector(expression: Any) -> bool:
-    """Tell whether U(x,y,z) is in an expression."""
+def has(word: str, expression: Any) -> bool:
+    """Tell whether a word is in an expression: "vector" is U(x,y,z), "shock" SPECTRUM(...)."""
     parts = (part for part in expression[1:] if isinstance(part, tuple))
-    return expression[0] == "vector" or any(has_vector(part) for part in parts)
+    return expression[0] == word or any(has(word, part) for part in parts)
 
 
 def format_expression(expression: Any, inner: bool = False) -> str:
@@ -210,8 +253,8 @@ def format_expression(expression: Any, inner: bool = False) -> str:
     kind, *parts = expression
     if kind == "case":
         return str(parts[0])
-    if kind == "abs":
-        return f"ABS({format_expression(parts[0])})"
+    if kind.upper() in FUNCTIONS:
+        return f"{kind.upper()}({','.join(format_expression(part) for part in parts)})"
     if kind == "*":
         return f"{format_factor(parts[0])}*{format_expression(parts[1], True)}"
     if kind == "neg":
@@ -241,8 +284,24 @@ def format_terms(items: tuple[Term, ...]) -> str:
     return text
 
 
+def format_shocks(items: tuple[Shock, ...]) -> str:
+    """Write a response spectrum case: SPECTRUM(SSE,X) + SPECTRUM(SSE,Y,0.67)."""
+    texts = []
+    for shock in items:
+        parts = [shock.spectrum, shock.direction]
+        if shock.factor != 1.0 or shock.group is not None:
+            parts.append(format_factor(shock.factor))
+        if shock.group is not None:
+            parts.append(shock.group)
+        texts.append(f"SPECTRUM({','.join(parts)})")
+    return " + ".join(texts)
+
+
+def format_case(case: Case) -> str:
+    """Write what stands after the = of a CASE, without its keys."""
+    return format_shocks(case.spectrum.shocks) if case.spectrum else format_terms(case.terms)
+
+
 def unknown_set(word: str, cases: set[str]) -> str:
     """Say that a name in a CASE is no load set, with the nearest one."""
-    if word.startswith("WIND"):
-        return f"{word}: wind is not built yet"
     return f"{word} is no load set{nearest(word, {*LOAD_SETS, *cases})}"

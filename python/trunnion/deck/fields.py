@@ -6,7 +6,7 @@ from typing import Any
 
 from trunnion.deck import units as un
 from trunnion.deck import values as va
-from trunnion.deck.keywords import KEYWORDS, PRESSURE_SETS, TEMPERATURE_SETS, Positional
+from trunnion.deck.keywords import KEYWORDS, PRESSURE_SETS, TEMPERATURE_SETS, Key, Positional
 from trunnion.deck.record import Mark, Record
 from trunnion.deck.values import Reader, WordError, nearest
 from trunnion.model import Direction, Units
@@ -24,6 +24,14 @@ class Fields:
                 key.name: va.reader_of(key, scales)
                 for key in word.keys
                 if key.dimension or (key.kind != "number" and key.kind != "gap")
+            }
+            for word in KEYWORDS.values()
+        }
+        self.numbers = {  # readers of positionals that are numbers
+            word.name: {
+                p.name: va.reader_of(Key(p.name, "", p.dimension, p.kind, bounds=p.bounds), scales)
+                for p in word.positionals
+                if p.kind in ("number", "integer")
             }
             for word in KEYWORDS.values()
         }
@@ -59,21 +67,29 @@ def read_fields(record: Record, items: list[Any], fields: Fields, complain: Comp
     """
     readers = fields.readers[record.keyword]
     wanted = _POSITIONALS[record.keyword]
-    keys, args = record.keys, record.args
+    keys, args, at = record.keys, record.args, 0
     for i, item in enumerate(items, 1):
         if isinstance(item, tuple):
             read_key(keys, i, item, record.keyword, readers, complain)
-        elif len(args) < len(wanted):
+        elif at < len(wanted):
+            expected, at = wanted[at], at + 1
+            number = fields.numbers[record.keyword].get(expected.name)
             try:
-                args.append(_positional(item, wanted[len(args)]))
+                if number is None:
+                    args.append(_positional(item, expected))
+                else:
+                    keys[expected.name.upper()] = number(item)
             except WordError as fault:
-                args.append(str(item).upper())
+                if number is None:
+                    args.append(str(item).upper())
+                else:
+                    keys[expected.name.upper()] = None
                 complain(str(fault), i)
         else:
             complain(_one_too_many(str(item), record.keyword, len(wanted)), i)
     if len(keys) + len(args) < len(items):
         return  # a misspelling is told; what is missing may be what was meant
-    missing = [p for p in wanted[len(args) :] if not p.optional]
+    missing = [p for p in wanted[at:] if not p.optional]
     if missing:
         complain(f"{' and '.join(_described(p) for p in missing)} missing", None)
     for name in _REQUIRED[record.keyword]:
@@ -127,6 +143,8 @@ def _positional(item: Any, wanted: Positional) -> str:
         return va.label(item)
     if wanted.kind == "name":
         return va.name(item)
+    if wanted.kind == "direction":
+        return va.direction(item)
     found = str(item).strip().upper()
     if found not in wanted.choices:
         what = "load set" if wanted.kind == "set" else "word"

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from trunnion.deck import cases, line, properties, restraints, sets
+from trunnion.deck import cases, dynamics, line, occasional, properties, restraints, sets
 from trunnion.deck.context import Context
 from trunnion.deck.record import Record
 
@@ -22,11 +22,18 @@ ACTIONS: dict[str, Callable[[Context, Record], None]] = {
     "ANCHOR": restraints.anchor,
     "SUPPORT": restraints.support,
     "HANGER": restraints.hanger,
+    "SNUBBER": restraints.snubber,
     "FORCE": sets.force,
     "DISPLACEMENT": sets.displacement,
     "ACCELERATION": sets.acceleration,
+    "WIND": occasional.wind,
+    "SNOW": occasional.snow,
+    "SPECTRUM": dynamics.spectrum,
+    "GROUP": dynamics.group,
+    "MODES": dynamics.modes,
     "CASE": cases.case,
     "COMB": cases.comb,
+    "CYCLE": dynamics.cycle,
 }
 
 

@@ -32,8 +32,9 @@ FRICTION = Bounds(0.0, 2.0)
 class Key:
     """One KEY=VALUE.
 
-    kind : number, integer, choice, node, name, text, vector, gap or along.
-    dimension : of a number (see units), "" for one that the direction word decides.
+    kind : number, integer, choice, node, name, text, vector, gap, along or pairs.
+    dimension : of a number (see units), "" for one that the direction word decides; of pairs
+        two of them, "length, speed".
     default : what holds without the key, in words for the reference page.
     """
 
@@ -50,13 +51,18 @@ class Key:
 
 @dataclass(frozen=True, slots=True)
 class Positional:
-    """One word without "=": kind node, name, set, choice, words (directions) or text."""
+    """One word without "=": kind node, name, set, choice, direction, words, number or integer.
+
+    A number or integer is kept among the keys of its record, as the key NAME would be.
+    """
 
     name: str
     kind: str
     meaning: str
     choices: tuple[str, ...] = ()
     optional: bool = False
+    dimension: str = "number"
+    bounds: Bounds = ANY
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,7 +73,8 @@ class Keyword:
     meaning: str
     positionals: tuple[Positional, ...] = ()
     keys: tuple[Key, ...] = ()
-    form: str = "fields"  # or: text, units, directions, equation
+    form: str = "fields"  # or: text, units, directions, equation, list
+    flags: tuple[tuple[str, str], ...] = ()  # words without value among the keys, and meanings
     notes: tuple[str, ...] = ()
     example: str = ""
 
@@ -99,6 +106,8 @@ TEMPERATURE_SETS = tuple(f"T{s}" for s in SETS)
 DIRECTIONS = tuple(s + r + a for r in ("", "R") for s in ("", "+", "-") for a in "XYZ")
 PIPE_DIRECTIONS = ("GUIDE", "LIMIT")
 DEGREES = ("DX", "DY", "DZ", "RX", "RY", "RZ")
+ACCELERATIONS = tuple(f"U{s}" for s in SETS)
+WINDS = tuple(f"WIND{s}" for s in SETS)
 
 _OPERATION = (
     *(_number(t, f"temperature of set {t}", "temperature", "TREF") for t in TEMPERATURE_SETS),
@@ -377,6 +386,17 @@ TABLE: tuple[Keyword, ...] = (
         example="HANGER 45 RATE=50N/mm LOAD=6.2",
     ),
     Keyword(
+        "SNUBBER",
+        "Free to move slowly, holds one direction in occasional cases and in modal analysis.",
+        (_node("node"), Positional("direction", "direction", "X, Y, Z or (a,b,c)")),
+        (_number("K", "stiffness when locked", "stiffness", "DEFAULT K", POSITIVE), _CNODE, _NAME),
+        notes=(
+            "Cases with ABOUT and the modes hold it both ways, without gap; all other cases do "
+            "not see it. SNUBBERS=LOCKED on a CASE card holds it there, too.",
+        ),
+        example="SNUBBER 40 X",
+    ),
+    Keyword(
         "FORCE",
         "Force and moment at a node in set Fn; further cards of one set add up.",
         (_node("node"), Positional("set", "set", "F1 to F9", tuple(f"F{s}" for s in SETS))),
@@ -404,38 +424,207 @@ TABLE: tuple[Keyword, ...] = (
     Keyword(
         "ACCELERATION",
         "Uniform acceleration of set Un as a load in g, in the direction given.",
-        (Positional("set", "set", "U1 to U3", ("U1", "U2", "U3")),),
+        (Positional("set", "set", "U1 to U9", ACCELERATIONS),),
         tuple(_number(a, f"part along {a}", "in g", "0") for a in "XYZ"),
         example="ACCELERATION U1 X=0.3",
     ),
     Keyword(
+        "WIND",
+        "Static wind of set WINDn on the projected area of pipe and insulation.",
+        (Positional("set", "set", "WIND1 to WIND9", WINDS),),
+        (
+            Key("DIR", "direction in which the wind blows", kind="vector", required=True),
+            Key(
+                "PRESSURE",
+                "table of (elevation,pressure)",
+                "length, wind pressure",
+                "pairs",
+            ),
+            Key("VELOCITY", "table of (elevation,velocity)", "length, speed", "pairs"),
+            _number("ASCE7", "basic wind speed of ASCE 7", "speed", "", POSITIVE),
+            _choice("EXPOSURE", "exposure of ASCE 7", ("B", "C", "D"), "C"),
+            _number("KZT", "topographic factor of ASCE 7", "number", "1", POSITIVE),
+            _number("KD", "directionality factor of ASCE 7", "number", "1", POSITIVE),
+            _number("GUST", "gust factor of ASCE 7", "number", "0.85", POSITIVE),
+            _number(
+                "SHAPE", "shape factor (force coefficient) of the pipe", "number", "0.7", POSITIVE
+            ),
+            _number("GROUND", "vertical coordinate where elevations start", "length", "0"),
+        ),
+        notes=(
+            "One of PRESSURE, VELOCITY and ASCE7. Elevations of a table count from GROUND and "
+            "rise; between its points a table is linear in the pressure, beyond its ends constant. "
+            "A velocity v gives the pressure v2 1.225 kg/m3 / 2.",
+            "Wind acts normal to the pipe: the component of its velocity normal to the pipe makes "
+            "the force, which falls with the square of the cosine of the angle between the wind "
+            "and that normal.",
+            "EXPOSURE, KZT, KD and GUST go with ASCE7.",
+        ),
+        example="WIND WIND1 DIR=(1,0,0) PRESSURE=(0,450Pa),(10000,600Pa) SHAPE=0.7",
+    ),
+    Keyword(
+        "SNOW",
+        "Snow or ice as a vertical load on every length of pipe, set S; further cards add up.",
+        (
+            Positional(
+                "weight",
+                "number",
+                "weight per length of pipe",
+                dimension="line load",
+                bounds=POSITIVE,
+            ),
+        ),
+        example="SNOW 0.2",
+    ),
+    Keyword(
+        "SPECTRUM",
+        "A response spectrum: accelerations against frequency or period.",
+        (Positional("name", "name", "name of the spectrum"),),
+        (
+            _choice(
+                "X", "what the first number of a pair is", ("FREQUENCY", "PERIOD"), "FREQUENCY"
+            ),
+            _choice("Y", "unit of the second", ("G", "M/S2", "IN/S2"), "G"),
+            _choice("INTERP", "between the points", ("LOG", "LINEAR"), "LOG"),
+            Key(
+                "TABLE", "points (x,y),(x,y) in rising x", "number, number", "pairs", required=True
+            ),
+        ),
+        notes=(
+            "Frequencies are in Hz, periods in s. LOG is linear in the logarithms of both; LINEAR "
+            "in x as given and y. A long table continues on further lines by &.",
+            "G counts in the acceleration of gravity of DEFAULT G.",
+        ),
+        example="SPECTRUM SSE Y=G TABLE=(0.5,0.1),(2.5,0.6),(9,0.6),(33,0.25)",
+    ),
+    Keyword(
+        "GROUP",
+        "Supports that move together in independent support motion.",
+        (Positional("name = node, node ...", "list", "labels of the supports' nodes"),),
+        form="list",
+        example="GROUP NORTH = 10, 20",
+    ),
+    Keyword(
+        "MODES",
+        "Natural frequencies and modes about the frozen contact state of a case.",
+        (Positional("n", "integer", "how many modes", bounds=Bounds(1, 10000)),),
+        (
+            _number("FMAX", "highest frequency of interest [Hz]", "number", "none", POSITIVE),
+            Key(
+                "ABOUT",
+                "case whose contact state is frozen",
+                kind="name",
+                default="supports without gap are closed",
+            ),
+            _choice("MASS", "mass matrix", ("LUMPED", "CONSISTENT"), "LUMPED"),
+            _choice("MESH", "nodes are added where spans are too long", ("AUTO", "NONE"), "AUTO"),
+            _choice("ROTARY", "rotary inertia of pipes", ON_OFF, "ON"),
+            _number(
+                "FRICTION",
+                "lateral stiffness of closed supports: factor times mu N, in 1/m",
+                "number",
+                "0",
+                NOT_NEGATIVE,
+            ),
+        ),
+        notes=("Snubbers are locked.",),
+        example="MODES 12 ABOUT=OPE FMAX=33",
+    ),
+    Keyword(
         "CASE",
-        "A load case: a sum of load sets, solved.",
+        "A load case: a sum of load sets, solved; or a response spectrum.",
         (Positional("name = [n*]SET {+|- [n*]SET}", "equation", "sum of load sets"),),
         (
             Key("FROM", "case whose end is the start (history of friction)", kind="name"),
+            Key("ABOUT", "case on whose frozen state this is an increment", kind="name"),
+            Key("ON", "case on whose frozen state this is a total", kind="name"),
             Key("STEPS", "equal load steps", kind="integer", default="1", bounds=Bounds(1, 100000)),
             _number("MUX", "factor on every coefficient of friction", "number", "1", NOT_NEGATIVE),
             _choice("E", "modulus of the cold or of the hot pipe", ("COLD", "HOT"), "COLD"),
             _choice("EVENTS", "split steps where gapped contacts close", ON_OFF, "DEFAULT EVENTS"),
             _choice("ITERATION", "iteration of this case", ITERATIONS, "DEFAULT ITERATION"),
-            _choice("SNUBBERS", "state of snubbers", ("FREE", "LOCKED"), "FREE"),
+            _choice(
+                "SNUBBERS", "state of snubbers", ("FREE", "LOCKED"), "LOCKED with ABOUT, else FREE"
+            ),
+            _choice(
+                "MODAL", "combination of modes", ("SRSS", "GROUP", "CQC", "ABS", "DSUM"), "SRSS"
+            ),
+            _choice("SPATIAL", "combination of directions", ("SRSS", "ABS"), "SRSS"),
+            _choice("GROUPS", "combination of groups of supports", ("ABS", "SRSS"), "ABS"),
+            _number(
+                "DAMPING", "fraction of critical damping", "number", "0.02", Bounds(0.0, 1.0, True)
+            ),
+            _number("DURATION", "of the strong motion, for DSUM [s]", "number", "10", POSITIVE),
+            _number(
+                "ZPA",
+                "zero period acceleration, in g",
+                "number",
+                "the spectrum at its highest frequency",
+                POSITIVE,
+            ),
+            _choice("MISSING", "correction for the missing mass", ON_OFF, "OFF"),
         ),
         form="equation",
+        flags=(("NONLINEAR", "with ABOUT: both together are solved nonlinearly, and subtracted"),),
         notes=(
             "Load sets: W weight, WNC weight without contents, WW weight with water, H cold load "
-            "of hangers, T1-T9, P1-P9, D1-D9, F1-F9, U1-U3, U(x,y,z). They are never case names.",
+            "of hangers, T1-T9, P1-P9, D1-D9, F1-F9, U1-U9, U(x,y,z) in g, WIND1-WIND9, S snow. "
+            "They are never case names.",
             "CASE with names of cases only is read as COMB.",
-            "U needs SNUBBERS=FREE or LOCKED.",
+            "FROM starts where that case ended. ABOUT is one linear solve on the frozen contact "
+            "state of a case, snubbers locked, friction left out: an increment about it. ON is "
+            "the same for a total, snubbers free (hot sustained). One of the three, and of a CASE "
+            "that has a contact state of its own: no COMB, and no case with ABOUT or ON.",
+            "U and WIND are for cases with ABOUT; without it SNUBBERS=FREE or LOCKED must say "
+            "what snubbers do.",
+            "A response spectrum case is a sum of SPECTRUM(name,X[,factor[,group]]) for the "
+            "directions X, Y, Z; it needs a MODES card. MODAL to MISSING belong to it. A group "
+            "(GROUP card) makes it independent support motion.",
+            "A deck without CASE and COMB cards takes default cases. SUS = W + P + F1 with the "
+            "first set of pressures, and H where hangers are; OPE = W + P1 + T1 + D1 + F1 for each "
+            "set of temperatures, pressures and displacements, OPE1, OPE2 ... when there are "
+            "several; EXP = OPE - SUS. U1-U9, WIND1-WIND9, S and F2-F9 are occasional loads: each "
+            "is a linear case ABOUT the first OPE, BY_U1, BY_WIND1 ..., and "
+            "OCC = ABS(SUS) + MAX(BY_U1, BY_WIND1 ...) takes them one at a time.",
         ),
         example="CASE OPE = W + P1 + T1",
     ),
     Keyword(
         "COMB",
-        "A combination of the results of cases: + - n* ( ) and ABS(...).",
+        "A combination of the results of cases.",
         (Positional("name = expression", "equation", "expression of names of cases"),),
         form="equation",
+        notes=(
+            "An expression has + - n* ( ) and functions, nested at will. Every displacement, "
+            "support load and end force is combined on its own, component by component:",
+            "- `ABS(a)`: size without sign.\n"
+            "- `SRSS(a,b,...)`: root of the sum of squares.\n"
+            "- `MAX(a,b,...)`, `MIN(a,b,...)`: largest, smallest size, without sign.\n"
+            "- `SIGNMAX(a,b,...)`: the one of largest size with its sign; + when two are equal.\n"
+            "- `SCALAR(a,b,...)`: the sum with signs, as a + b. In the trade it differs from the "
+            "algebraic sum in stresses only.",
+            "A response spectrum case has no signs; every number of it is a size.",
+        ),
         example="COMB EXP = OPE - SUS",
+    ),
+    Keyword(
+        "CYCLE",
+        "Follows cases one after another, friction and all, until the loop repeats.",
+        (Positional("name = case, case ...", "list", "cases in the order in which they come"),),
+        (
+            Key(
+                "TIMES",
+                "most loops to follow",
+                kind="integer",
+                bounds=Bounds(1, 1000),
+                required=True,
+            ),
+            Key(
+                "FROM", "case whose end is the start", kind="name", default="at rest, without load"
+            ),
+        ),
+        form="list",
+        example="CYCLE HEAT = OPE, SUS TIMES=4",
     ),
 )
 

@@ -127,7 +127,7 @@ class _Reading:
             heard.append((message, mark))
 
         before = len(self.faults)
-        if known.form == "equation":
+        if known.form in ("equation", "list"):
             rest = card.text[len(word) :].lstrip()
             read_equation(record, rest, len(card.text) - len(rest), fields, complain)
         elif known.form == "directions":

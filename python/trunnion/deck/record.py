@@ -11,8 +11,10 @@ class Record:
     """What the deck and the Python API both produce; the interpreter makes the Model of it.
 
     args : positionals, upper case.
-    keys : values in SI (temperatures in C): float, str, int or tuple by the kind of key.
+    keys : values in SI (temperatures in C): float, str, int or tuple by the kind of key;
+        positionals that are numbers, and flags, stand here too.
     words : directions of a SUPPORT, each with its keys.
+    items : names of a list, on GROUP and CYCLE.
     expression : of CASE and COMB, parsed.
     """
 
@@ -21,6 +23,7 @@ class Record:
     args: list[str] = field(default_factory=list)
     keys: dict[str, Any] = field(default_factory=dict)
     words: tuple[Direction, ...] = ()
+    items: list[str] = field(default_factory=list)
     expression: Any = None
 
     @property

@@ -1,8 +1,9 @@
-"""Cards of anchors, supports and hangers to the model."""
+"""Cards of anchors, supports, hangers and snubbers to the model."""
 
 from trunnion.deck.context import Context
 from trunnion.deck.record import Record
-from trunnion.model import Support
+from trunnion.deck.values import vector
+from trunnion.model import Direction, Support
 
 
 def anchor(run: Context, record: Record) -> None:
@@ -49,6 +50,26 @@ def hanger(run: Context, record: Record) -> None:
             name=keys.get("NAME"),
             k=keys.get("RATE", 0.0),
             load=keys["LOAD"],
+            place=record.place,
+        ),
+    )
+
+
+def snubber(run: Context, record: Record) -> None:
+    """SNUBBER: one direction, both ways, when locked."""
+    node, word = record.args
+    found = vector(word) if word.startswith("(") else None
+    if found is not None:
+        word = f"({','.join(f'{x:g}' for x in found)})"
+    run.keep(
+        run.model.supports,
+        Support(
+            node,
+            "snubber",
+            (Direction(word, found),),
+            record.keys.get("CNODE"),
+            record.keys.get("NAME"),
+            record.keys.get("K"),
             place=record.place,
         ),
     )

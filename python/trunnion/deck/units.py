@@ -39,6 +39,7 @@ _ATOMS: dict[str, Unit] = {
     "bar": Unit(10**5, 1, (-1, 1, -2, 0)),
     # lbf/in2
     "psi": Unit(44482216152605 * 10**8, 10**13 * 254**2, (-1, 1, -2, 0)),
+    "mph": Unit(1609344, 3600000, (1, 0, -1, 0)),
     "rad": Unit(1, 1, (0, 0, 0, 0)), "deg": Unit(math.pi, 180, (0, 0, 0, 0)),
     "c": Unit(1, 1, (0, 0, 0, 1)), "degc": Unit(1, 1, (0, 0, 0, 1)),
     "k": Unit(1, 1, (0, 0, 0, 1)),
@@ -68,6 +69,8 @@ DIMENSIONS: dict[str, tuple[str, str, Exponents]] = {
     "angle": ("rotation, angular gap", "rad", (0, 0, 0, 0)),
     "gravity": ("acceleration of gravity", "m/s2", (1, 0, -2, 0)),
     "in g": ("acceleration, in g", "g", (1, 0, -2, 0)),
+    "speed": ("speed of wind", "m/s", (1, 0, -1, 0)),
+    "wind pressure": ("pressure of wind", "Pa", (-1, 1, -2, 0)),
     "number": ("plain number", "", (0, 0, 0, 0)),
 }
 
@@ -98,6 +101,8 @@ def derived(units: Units) -> dict[str, str]:
         "angle": "rad",
         "gravity": "m/s2",
         "in g": "g",
+        "speed": "mph" if imperial else "m/s",
+        "wind pressure": "lbf/ft2" if imperial else "Pa",
         "number": "",
     }
 

@@ -132,6 +132,43 @@ def integer(value: object) -> int:
     return int(found)
 
 
+def pairs(
+    value: object, scales: tuple[Scale, Scale], dimensions: tuple[str, str]
+) -> tuple[tuple[float, float], ...]:
+    """Points of "(x,y),(x,y)" or of a sequence of pairs."""
+    rows = value
+    if isinstance(value, str):
+        text = "".join(value.split())
+        if not (text.startswith("(") and text.endswith(")")):
+            raise WordError(f"{_short(text)} is no table; write (x,y),(x,y)")
+        rows = [part.split(",") for part in text[1:-1].split("),(")]
+    found = []
+    try:
+        for i, row in enumerate(rows, 1):  # type: ignore[arg-type,var-annotated]
+            if len(row) != 2:
+                raise WordError(f"point {i} of the table has {len(row)} numbers; write (x,y),(x,y)")
+            x, y = (number(p, s, d) for p, s, d in zip(row, scales, dimensions, strict=True))
+            found.append((x, y))
+    except TypeError:
+        raise WordError(f"{_short(str(value))} is no table of points (x,y)") from None
+    return tuple(found)
+
+
+def _short(text: str) -> str:
+    """Cut a long text for a message."""
+    return text if len(text) <= 40 else f"{text[:40]} ..."
+
+
+def direction(value: object) -> str:
+    """X, Y, Z, or "(a,b,c)", given as text or as three numbers."""
+    text = str(value).strip().upper()
+    if text in ("X", "Y", "Z"):
+        return text
+    if isinstance(value, str) and not text.startswith("("):
+        raise WordError(f"direction {value} is not one of X Y Z or (a,b,c)")
+    return f"({','.join(repr(x) for x in vector(value))})"
+
+
 def along(value: object) -> str:
     """Pipe of ALONG=30-40, given as text or as two labels."""
     ends = value.split("-") if isinstance(value, str) else value
@@ -154,6 +191,9 @@ def reader_of(key: Key, scales: dict[str, Scale], dimension: str = "") -> Reader
             return lambda value: _within(integer(value), value, key)
         case "choice":
             return lambda value: choice(value, key.choices)
+        case "pairs":
+            x, y = dimension.split(", ")
+            return lambda value: pairs(value, (scales[x], scales[y]), (x, y))
         case "gap":
             return lambda value: gap(value, scales[dimension], dimension)
     if bounds is not ANY:

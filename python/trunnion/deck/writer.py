@@ -9,8 +9,10 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import asdict
 from typing import Any
 
+from trunnion.deck import case_writer as cw
 from trunnion.deck import units as un
-from trunnion.deck.expressions import format_expression, format_terms
+from trunnion.deck.case_writer import Pair
+from trunnion.deck.case_writer import card as _card
 from trunnion.deck.keywords import KEYWORDS
 from trunnion.deck.properties import graded
 from trunnion.deck.reader import read_text
@@ -18,8 +20,6 @@ from trunnion.errors import DeckError, ModelError, Problem
 from trunnion.model import (
     INFINITE,
     Bend,
-    Case,
-    Comb,
     Direction,
     Material,
     Model,
@@ -31,7 +31,6 @@ from trunnion.model import (
 from trunnion.names import UnknownName
 
 _WIDTH = 100
-Pair = tuple[str, str]  # KEY, value as text
 
 
 def write(model: Model) -> str:
@@ -81,12 +80,6 @@ def _fold(line: str) -> str:
     return "\n".join([*lines, row])
 
 
-def _card(keyword: str, args: Iterable[str], keys: Iterable[Pair] = ()) -> str:
-    """Write one card."""
-    words = [*args, *(f"{key}={value}" for key, value in keys)]
-    return f"{keyword:<8} {' '.join(words)}".rstrip()
-
-
 class _Writer:
     """Writes the cards of one model."""
 
@@ -113,6 +106,10 @@ class _Writer:
                 found.append((name, self.number(value, key.dimension)))
             elif key.kind == "vector":
                 found.append((name, self.vector(value)))
+            elif key.kind == "pairs":
+                dims = key.dimension.split(", ")
+                rows = (",".join(map(self.number, row, dims)) for row in value)
+                found.append((name, ", ".join(f"({row})" for row in rows)))
             else:
                 found.append((name, str(value)))
         return found
@@ -135,8 +132,20 @@ class _Writer:
         for section in model.sections.values():
             yield self.section_card(section)
         yield from self.body()
+        yield from self.dynamics()
         for case in model.cases:
-            yield self.case_card(case)
+            yield cw.case_card(case, self.keys, model.settings)
+        for cycle in model.cycles:
+            yield cw.cycle_card(cycle, self.keys)
+
+    def dynamics(self) -> Iterator[str]:
+        """Write spectra, groups and modes."""
+        for spectrum in self.model.spectra.values():
+            yield cw.spectrum_card(spectrum, self.keys)
+        for group in self.model.groups:
+            yield cw.group_card(group)
+        if self.model.modal is not None:
+            yield cw.modes_card(self.model.modal, self.keys)
 
     def defaults(self) -> Iterator[str]:
         """Write the settings that differ from the usual ones."""
@@ -162,6 +171,8 @@ class _Writer:
             (model.displacements, self.displacement_card),
             (model.forces, self.force_card),
             (model.accelerations, self.acceleration_card),
+            (model.winds, lambda item: cw.wind_card(item, self.keys)),
+            (model.snows, lambda item: cw.snow_card(item, self.number)),
         ]
         places = [[item.place for item in items] for items, _ in rows]
         one_file = len({place.file for row in places for place in row}) <= 1
@@ -296,6 +307,11 @@ class _Writer:
             case "hanger":
                 values = {"RATE": support.k or None, "LOAD": support.load, **common}
                 yield _card("HANGER", node, self.keys("HANGER", values))
+            case "snubber":
+                (direction,) = support.directions
+                word = direction.word if direction.vector is None else self.vector(direction.vector)
+                keys = self.keys("SNUBBER", {"K": support.k, **common})
+                yield _card("SNUBBER", [*node, word], keys)
             case "spring":
                 keys = self.spring_keys(support.ks or (0.0,) * 6, support.axis)
                 yield _card("SPRING", node, keys)
@@ -346,19 +362,3 @@ class _Writer:
         values = dict(zip("XYZ", item.a, strict=True))
         keys = self.keys("ACCELERATION", values, 0.0) or [("X", "0")]
         yield _card("ACCELERATION", ["U" + item.set], keys)
-
-    def case_card(self, case: Case | Comb) -> str:
-        """Write a case or combination."""
-        if isinstance(case, Comb):
-            return _card("COMB", [case.name, "=", format_expression(case.expression)])
-        values = {
-            "FROM": case.start,
-            "STEPS": case.steps if case.steps != 1 else None,
-            "MUX": case.mux if case.mux != 1.0 else None,
-            "E": "HOT" if case.hot else None,
-            "EVENTS": None if case.events is None else ("OFF", "ON")[case.events],
-            "ITERATION": case.iteration,
-            "SNUBBERS": case.snubbers,
-        }
-        words = [case.name, "=", format_terms(case.terms)]
-        return _card("CASE", words, self.keys("CASE", values))

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from trunnion.arrays import F8
+from trunnion.solver.capacities import STEPS, settle
 from trunnion.solver.coupled import coupled_step
 from trunnion.solver.history import History
 from trunnion.solver.newton import FULL_STEPS, Outcome, relax, tangent_factor
@@ -20,6 +21,7 @@ from trunnion.solver.structure import Forcing, Point, Response, Sliding, Structu
 STIFFEN = 10.0  # factor of the stick stiffness from stage to stage
 LOOSE, CLOSE = 0.3, 3e-3  # out-of-balance force of a stage and of a renewal, of the capacity
 RENEWALS = 40
+PROGRESS, STALLED = 0.8, 4  # a renewal that gains less stalls; so many in a row end the plain way
 COUPLED = 12  # consistent steps in a row
 STICKY = 1e300  # a capacity that is never reached
 
@@ -46,8 +48,8 @@ def solve_step(
     """Solve one load step from its committed datum; `capacity` skips the search for a start."""
     has_friction = bool((sliding.mu > 0.0).any())
     free = replace(sliding, capacity=np.zeros_like(sliding.mu), coupled=False)
+    start = point.copy()
     if capacity is None:
-        start = point.copy()
         outcome = without_friction(structure, point, free, forcing, history)
         if not has_friction:
             cause = None if outcome.settled else _cause(outcome)
@@ -55,12 +57,21 @@ def solve_step(
         if outcome.settled:
             capacity = sliding.mu * outcome.response.normal
             outcome = smooth(structure, point, sliding, forcing, history, outcome, capacity)
-        else:
-            point.u[:], point.low[:] = start.u, start.low
-            outcome = all_stuck(structure, point, sliding, forcing, history)
-        capacity = sliding.mu * outcome.response.normal
-    fixed = replace(sliding, capacity=capacity.copy(), coupled=False)
-    return renew(structure, point, fixed, forcing, history)
+            capacity = sliding.mu * outcome.response.normal
+    solved = None
+    if capacity is not None:
+        solved = renew(structure, point, _fixed(sliding, capacity), forcing, history)
+        if solved.settled or "without bound" in (solved.cause or ""):
+            return solved
+    point.u[:], point.low[:] = start.u, start.low
+    outcome = all_stuck(structure, point, sliding, forcing, history)
+    capacity = sliding.mu * outcome.response.normal
+    again = renew(structure, point, _fixed(sliding, capacity), forcing, history)
+    return again if again.settled or solved is None else solved
+
+
+def _fixed(sliding: Sliding, capacity: F8) -> Sliding:
+    return replace(sliding, capacity=capacity.copy(), coupled=False)
 
 
 def without_friction(
@@ -135,7 +146,8 @@ def renew(
     structure: Structure, point: Point, sliding: Sliding, forcing: Forcing, history: History
 ) -> Solved:
     """Renew the capacities from the normal forces until they agree, then couple them."""
-    change = np.inf
+    change, best, stalled = np.inf, np.inf, 0
+    error = np.zeros_like(sliding.capacity)
     for i in range(RENEWALS):
         size = max(1e-3, float(sliding.capacity.max(initial=0.0)))
         outcome = relax(
@@ -150,12 +162,39 @@ def renew(
         if not outcome.settled:
             return Solved(False, outcome.response, sliding, _cause(outcome), i)
         new = sliding.mu * outcome.response.normal
-        change = float(np.abs(new - sliding.capacity).max(initial=0.0))
+        last, error = error, new - sliding.capacity
+        change = float(np.abs(error).max(initial=0.0))
+        grows = change > best and float(np.vdot(error, last)) > 0.0  # as a self-locking one does
+        stalled = 0 if change < PROGRESS * best or grows else stalled + 1
+        best = min(best, change)
+        if stalled >= STALLED:
+            break
         sliding.capacity = new
         coupled = finish(structure, point, sliding, forcing, history)
         if coupled is not None:
             return coupled
-    return Solved(False, outcome.response, sliding, "the normal forces do not settle", RENEWALS)
+    return damped(structure, point, sliding, forcing, history, outcome.response)
+
+
+def damped(
+    structure: Structure,
+    point: Point,
+    sliding: Sliding,
+    forcing: Forcing,
+    history: History,
+    response: Response,
+) -> Solved:
+    """Renew by damped steps, each followed by a try of the coupled law."""
+    taken = 0
+    for _ in range(STEPS):
+        better = settle(structure, point, sliding, forcing, history, response)
+        if better is None:
+            break
+        response, taken = better, taken + 1
+        coupled = finish(structure, point, sliding, forcing, history)
+        if coupled is not None:
+            return coupled
+    return Solved(False, response, sliding, "the normal forces do not settle", taken)
 
 
 def finish(

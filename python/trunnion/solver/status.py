@@ -74,6 +74,7 @@ def solve_status(
     history: History,
     *,
     freeze: bool = True,
+    passes: int = PASSES,
 ) -> Solved:
     """Solve one load step by the status iteration; freezes what reverses too often."""
     trial = replace(sliding, datum=sliding.datum.copy(), coupled=False)
@@ -83,7 +84,7 @@ def solve_status(
     true = structure.respond(point, law, forcing, scratch)
     turns = np.zeros(len(structure.at), np.int32)
     creep, earlier, calm = Creep(), None, 0
-    for i in range(PASSES):
+    for i in range(passes):
         p = _pass(structure, point, trial, forcing, true, careful=bool((turns >= CHATTER).any()))
         if not np.abs(p).max() < RUNAWAY * structure.size:
             return Solved(False, true, law, "the pipe moves away without bound")

@@ -14,6 +14,7 @@ from trunnion.solver.verdict import commit
 
 RAMPS = (2, 4, 8, 16, 32, 64)
 EVENTS = 200  # closings located in one step, at most
+LAST_PASSES = 3000  # of the status iteration where newton has failed
 LOCATED = 1e-10  # of the gap, where the load fraction of a closing counts as found
 
 Step = Callable[[Structure, Point, Sliding, Forcing, History], Solved]
@@ -124,7 +125,7 @@ def _fallbacks(
             return first
     if solve is not solve_status:
         _return(point, before)
-        solved = solve_status(structure, point, law, target, history)
+        solved = solve_status(structure, point, law, target, history, passes=LAST_PASSES)
         if solved.settled:
             history.notes.append("solved by the status iteration because newton did not settle")
             return solved

@@ -6,7 +6,7 @@ from functools import cached_property
 import numpy as np
 
 from trunnion import kernels
-from trunnion.arrays import F8, I4, Loads, System
+from trunnion.arrays import ARC, F8, I4, SPRING, Loads, System
 from trunnion.errors import NotPositiveDefiniteError
 from trunnion.solver.inert import contacts_of, sliders_of
 from trunnion.solver.ledger import Ledger
@@ -144,7 +144,7 @@ class Structure:
     def _elements(self) -> None:
         s, p = self.system, self.pattern
         self.ends = np.ascontiguousarray(s.ends, np.int32)
-        self.d = s.xyz[s.ends[:, 1]] - s.xyz[s.ends[:, 0]]
+        self.d = _tips(s)
         self.form = np.column_stack((s.length, s.radius, s.angle))
         self.k = kernels.element_stiffness(
             s.kind, self.form, s.rigidity, s.flex, s.spring, s.axes, self.d
@@ -427,3 +427,12 @@ class Structure:
         paired = self.at[:, 1] >= 0
         w[paired] -= p[self.at[paired, 1:2], columns[paired]]
         return w
+
+
+def _tips(s: System) -> F8:
+    """(n_elem, 3) from the first to the second end; large coordinates would cost digits [m]."""
+    along = np.where(s.kind == ARC, s.radius * np.sin(s.angle), s.length)
+    inward = s.radius * 2.0 * np.sin(0.5 * s.angle) ** 2
+    d = along[:, None] * s.axes[:, 0] + inward[:, None] * s.axes[:, 1]
+    apart = s.xyz[s.ends[:, 1]] - s.xyz[s.ends[:, 0]]
+    return np.ascontiguousarray(np.where((s.kind == SPRING)[:, None], apart, d))

@@ -39,7 +39,7 @@ def report_numbers(
     structure.ledger.refining = True
     try:
         r, end, response = structure.residual(point, law, forcing)
-        best = np.inf
+        best = (np.inf, np.inf)
         shift = 0.0
         for i in range(REFINEMENTS):
             shift = max(shift, _factor(structure, response))
@@ -48,9 +48,11 @@ def report_numbers(
             trial.move(p)
             after = structure.residual(trial, law, forcing)
             left = corrections(structure, p, point, response, after[2])
-            if max(left) >= best or max(left) <= SHARP or i == REFINEMENTS - 1:
+            # a reaction is a difference of displacements: it may lag behind them by one pass
+            better = any(new < old for new, old in zip(left, best, strict=True))
+            if not better or max(left) <= SHARP or i == REFINEMENTS - 1:
                 break
-            best = max(left)
+            best = left
             point.u[:], point.low[:] = trial.u, trial.low
             r, end, response = after
         broken = judge(response, after[2], p, None, point.u).broken
