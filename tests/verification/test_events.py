@@ -31,7 +31,7 @@ SUPPORT  20 GUIDE GAP=3
 FORCE    20 F1 FZ=1000 FX=50000
 CASE A = F1 EVENTS=ON
 CASE B = F1
-CASE S = F1 EVENTS=ON STEPS=4
+CASE QUARTERS = F1 EVENTS=ON STEPS=4
 """
 
 LINE = """
@@ -74,13 +74,15 @@ def guide(result):
     return list(result.system.sliders.contact).index(i)
 
 
-@pytest.mark.parametrize("case", ["A", "S"])
+@pytest.mark.parametrize("case", ["A", "QUARTERS"])
 def test_the_fraction_of_the_closing_is_exact(tip, case):
-    share = CLOSES * (4 if case == "S" else 1)  # 0.2007 of the load: within the first quarter
+    share = CLOSES * (
+        4 if case == "QUARTERS" else 1
+    )  # 0.2007 of the load: within the first quarter
     assert tip[case].warnings == (f"EVENT: 20 GUIDE closes at {share:.6g} of the step",)
 
 
-@pytest.mark.parametrize(("case", "since"), [("A", CLOSES), ("B", 0.0), ("S", 0.75)])
+@pytest.mark.parametrize(("case", "since"), [("A", CLOSES), ("B", 0.0), ("QUARTERS", 0.75)])
 def test_friction_counts_from_the_datum_of_the_last_commit(tip, case, since):
     """The tip slides in every step; the datum follows it at f and at the end of each quarter."""
     result, flexibility = tip[case], L / EA + 1e-12
