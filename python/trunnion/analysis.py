@@ -93,7 +93,8 @@ class Run:
             if isinstance(case, Comb):
                 self.found[case.name] = combine(case, self.found)
         inorder = {case.name: self.found[case.name] for case in self.model.cases}
-        return Results(self.model.title, inorder, (), self.ledger.snapshot(), cycles)
+        work = self.ledger.snapshot()
+        return Results(self.model.title, inorder, (), work, cycles, self.system)
 
     def _keep(self, result: CaseResult) -> None:
         """Store an answer with the work done since the last; shared work stands on the first."""

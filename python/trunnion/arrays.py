@@ -89,6 +89,21 @@ class Sliders:
     contact: I4
 
 
+def no_sliders() -> Sliders:
+    """No friction."""
+    none = np.zeros(0, np.int32)
+    return Sliders(
+        node=none,
+        cnode=none,
+        card=none,
+        basis=np.zeros((0, 2, 3)),
+        mu=np.zeros(0),
+        kf=np.zeros(0),
+        first=np.zeros(1, np.int32),
+        contact=none,
+    )
+
+
 @dataclass(frozen=True, slots=True)
 class Card:
     """One support of the JSON and of the restraint table: a card of the deck."""
@@ -251,6 +266,34 @@ class FrozenBreak:
     amount: float
 
 
+@dataclass(frozen=True, slots=True)
+class Gathered:
+    """Numbers of a result without contact states: a combination or a response spectrum.
+
+    Sums over the contacts of a card and turns into local axes come before ABS, SRSS or MAX: the
+    size of a sum is not the sum of sizes.
+
+    card_force : (n_card, 6) on the pipe; card_normal, card_friction : (n_card, 3) its parts.
+    card_load : (n_card, 6) on the restraint; None: the opposite, which sizes are not.
+    local_force : (n_elem, 2, 6) end forces in the axes of the ends; None: those of `end_force`.
+    section_force : (n_elem, 2, 6) the same with the signs of a section, tension positive; None:
+        from `local_force` or `end_force` by turning the signs of the first end.
+    """
+
+    card_force: F8
+    card_normal: F8
+    card_friction: F8
+    card_load: F8 | None = None
+    local_force: F8 | None = None
+    section_force: F8 | None = None
+
+
+def sizes(card_force: F8, local_force: F8) -> Gathered:
+    """Largest values without signs (a response spectrum): the same for whoever looks at them."""
+    normal = card_force[:, :3]
+    return Gathered(card_force, normal, np.zeros_like(normal), card_force, local_force, local_force)
+
+
 @dataclass(slots=True)
 class CycleResult:
     """A loop of cases followed with committed datums.
@@ -272,6 +315,20 @@ class CycleResult:
     path: list["CaseResult"] = field(default_factory=list)
     cause: str | None = None
 
+    @property
+    def support_ranges(self) -> "Table":
+        """Ranges of support loads over the loop and in one shot, with their ratio."""
+        from trunnion.tables import support_ranges
+
+        return support_ranges(self)
+
+    @property
+    def element_ranges(self) -> "Table":
+        """Ranges of end forces over the loop and in one shot, with their ratio."""
+        from trunnion.tables import element_ranges
+
+        return element_ranges(self)
+
 
 @dataclass(slots=True)
 class CaseResult:
@@ -284,7 +341,7 @@ class CaseResult:
     """
 
     name: str
-    kind: str  # case or comb
+    kind: str  # case, comb or spectrum
     text: str  # "W + P1 + T1"
     system: System
     loads: Loads | None
@@ -301,6 +358,7 @@ class CaseResult:
     work: dict[str, int] = field(default_factory=dict)
     linear: bool = True  # False: a combination with ABS or of two moduli: no interior points
     frozen_check: tuple[FrozenBreak, ...] = ()  # of a locked case: what its assumption breaks
+    gathered: Gathered | None = None  # None where contacts have states
 
     @property
     def displacements(self) -> "Table":
@@ -340,7 +398,53 @@ class Results:
     warnings: tuple[str, ...] = ()
     work: dict[str, int] = field(default_factory=dict)
     cycles: dict[str, CycleResult] = field(default_factory=dict)
+    base: System | None = None  # the system whose contacts have gaps; cases may have others
 
     def __getitem__(self, name: str) -> CaseResult:
         """Return the case called `name`."""
         return self.cases[name]
+
+    @property
+    def system(self) -> System:
+        """The system that labels, elements and support cards of all cases are those of."""
+        return self.base or next(iter(self.cases.values())).system
+
+    @property
+    def envelope(self) -> "Table":
+        """Largest and smallest load of every support over all cases, and the cases' names."""
+        from trunnion.tables import envelope
+
+        return envelope(self)
+
+
+@dataclass(frozen=True, slots=True)
+class ModeSet:
+    """Natural modes about a frozen contact state, in rising frequency, rigid ones first.
+
+    system : the system they belong to; extra nodes follow those of the model.
+    frequency : (m,) [Hz]; 0 for rigid modes.
+    shape, shape_low : (m, n_node, 6) mass-normalised; displacements are the unevaluated sum.
+    participation : (m, 3) factors for X Y Z [kg^0.5].
+    effective_mass : (m, 3) their squares [kg].
+    total_mass : (3,) of the system, held masses included [kg].
+    residual : (m,) |K x - w2 M x| / |w2 M x|, of rigid modes to the lowest w2 above zero.
+    rigid : number of rigid modes.
+    added : number of extra nodes.
+    part_of, last : elements of the model, see `solver.mesh.Mesh`.
+    proven : a Sturm count shows that no mode below `counted` [Hz] is missing.
+    """
+
+    system: System
+    frequency: F8
+    shape: F8
+    shape_low: F8
+    participation: F8
+    effective_mass: F8
+    total_mass: F8
+    residual: F8
+    rigid: int
+    added: int
+    part_of: I4
+    last: I4
+    proven: bool
+    counted: float

@@ -5,7 +5,7 @@ import numpy as np
 from trunnion.arrays import F8, CaseResult, Loads, System
 from trunnion.deformation import load_moment
 from trunnion.interior import section_axes
-from trunnion.supports import solved
+from trunnion.supports import card_forces
 
 
 def load_sum(system: System, loads: Loads) -> F8:
@@ -27,19 +27,17 @@ def reaction_sum(case: CaseResult) -> F8:
 
     A support on another node (CNODE) pushes both ways and cancels.
     """
-    system, state = case.system, solved(case)
-    contacts, sliders = system.contacts, system.sliders
+    system, force = case.system, card_forces(case)
+    number = {label: i for i, label in enumerate(system.labels)} | system.alias
     total = np.zeros(6)
-    for force, node, cnode, turning in (
-        (state.reaction, contacts.node, contacts.cnode, contacts.rotational),
-        (state.friction, sliders.node, sliders.cnode, np.zeros(len(sliders.mu), bool)),
-    ):
-        grounded = cnode < 0
-        total[3:] += force[turning & grounded].sum(axis=0)
-        push = np.where(turning[:, None], 0.0, force)
-        total[:3] += push[grounded].sum(axis=0)
-        total[3:] += np.cross(system.xyz[node], push).sum(axis=0)
-        total[3:] -= np.cross(system.xyz[cnode[~grounded]], push[~grounded]).sum(axis=0)
+    at = [number[card.label] for card in system.cards]
+    other = [(i, number[card.cnode]) for i, card in enumerate(system.cards) if card.cnode]
+    total += force.sum(axis=0)
+    total[3:] += np.cross(system.xyz[at], force[:, :3]).sum(axis=0)
+    if other:
+        cards, nodes = np.array(other).T
+        total -= force[cards].sum(axis=0)
+        total[3:] -= np.cross(system.xyz[nodes], force[cards, :3]).sum(axis=0)
     return total
 
 
@@ -55,3 +53,19 @@ def local_forces(system: System, end_force: F8) -> F8:
     split = end_force.reshape(-1, 2, 2, 3)
     turned: F8 = np.einsum("eaij,eafj->eafi", end_axes(system), split)
     return turned.reshape(-1, 2, 6)
+
+
+def local_end_forces(case: CaseResult) -> F8:
+    """(n_elem, 2, 6) end forces of a case in the axes of each end."""
+    if case.gathered is not None and case.gathered.local_force is not None:
+        return case.gathered.local_force
+    assert case.state is not None
+    return local_forces(case.system, case.state.end_force)
+
+
+def section_forces(case: CaseResult) -> F8:
+    """(n_elem, 2, 6) forces of the sections at both ends, in their axes; tension positive."""
+    if case.gathered is not None and case.gathered.section_force is not None:
+        return case.gathered.section_force
+    force: F8 = local_end_forces(case) * np.array([-1.0, 1.0])[:, None]
+    return force

@@ -1,4 +1,4 @@
-"""Load cases as arrays: weight, temperature, pressure, movements, forces, accelerations."""
+"""Load cases as arrays: weight, temperature, pressure, movements, forces, occasional loads."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -12,6 +12,7 @@ from trunnion.model import Case, Model, Term
 from trunnion.movements import bases, idle, node_numbers
 from trunnion.strains import pressure_effects, pressures, strains
 from trunnion.weights import line_weights
+from trunnion.wind import snow_load, wind_loads, wind_problems, wind_remarks
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,6 +28,7 @@ class LoadSets:
     base : D set -> (n_card, 6) [m, rad].
     preload : (n_card,) cold load of hangers [N].
     acceleration : U set -> (3,) [g].
+    spread : WIND1 ... WIND9 and S (snow) -> (n_elem, 3) [N/m].
     """
 
     up: F8
@@ -43,6 +45,8 @@ class LoadSets:
     bare: Mapping[str, int] = field(default_factory=dict)  # T set -> pipes without it
     hangers: int = 0
     idle: Mapping[str, tuple[str, ...]] = field(default_factory=dict)  # D set -> moves nothing
+    spread: Mapping[str, F8] = field(default_factory=dict)
+    remarks: Mapping[str, tuple[str, ...]] = field(default_factory=dict)  # WIND1 ... -> remarks
 
 
 def load_sets(model: Model, system: System) -> LoadSets:
@@ -50,6 +54,11 @@ def load_sets(model: Model, system: System) -> LoadSets:
     problems: list[Problem] = []
     strain, bare = strains(model, system, problems)
     elongation, opening = pressure_effects(model, system)
+    refuse(wind_problems(model.winds))
+    winds = wind_loads(model, system)
+    spread = {name: found.load for name, found in winds.items()}
+    if model.snows:
+        spread["S"] = snow_load(model, system)
     sets = LoadSets(
         up=system.up,
         weight=line_weights(model, system),
@@ -65,6 +74,8 @@ def load_sets(model: Model, system: System) -> LoadSets:
         bare=bare,
         hangers=sum(s.kind == "hanger" for s in model.supports),
         idle=idle(model, system),
+        spread=spread,
+        remarks={name: wind_remarks(system, found) for name, found in winds.items()},
     )
     for case in model.cases:
         if isinstance(case, Case):
@@ -90,6 +101,8 @@ def case_loads(model: Model, system: System, case: Case, sets: LoadSets | None =
         if name in sets.weight:
             dist -= np.outer(f * sets.weight[name], sets.up)
             nodal[:, :3] -= np.outer(f * sets.lump, sets.up)
+        elif name in sets.spread:
+            dist += f * sets.spread[name]
         elif name == "H":
             preload += f * sets.preload
         elif name[0] == "T":
@@ -119,21 +132,23 @@ def case_loads(model: Model, system: System, case: Case, sets: LoadSets | None =
 
 
 def case_warnings(sets: LoadSets, case: Case) -> tuple[str, ...]:
-    """List what is legal in a case but seldom meant."""
+    """List what is legal in a case but seldom meant; who prints it names the case."""
     names = {term.name for term in case.terms}
     heavy = sorted(names & {"W", "WNC", "WW"})
     found: list[str] = []
     if heavy and sets.hangers and "H" not in names:
         count = f"{sets.hangers} hanger{'s' if sets.hangers > 1 else ''}"
-        found.append(f"{case.name}: {heavy[0]} without H: the cold load of {count} is left out")
+        found.append(f"{heavy[0]} without H: the cold load of {count} is left out")
     if "H" in names and not sets.hangers:
-        found.append(f"{case.name}: H: there are no hangers")
+        found.append("H: there are no hangers")
     for name in sorted(n for n in names if n[0] == "T" and sets.bare.get(n[1:])):
         bare = sets.bare[name[1:]]
         pipes = "1 pipe" if bare == 1 else f"{bare} pipes"
-        found.append(f"{case.name}: {name} is not given on {pipes}")
+        found.append(f"{name} is not given on {pipes}")
     for name in sorted(n for n in names if n[0] == "D"):
-        found += [f"{case.name}: {text}" for text in sets.idle.get(name[1:], ())]
+        found += sets.idle.get(name[1:], ())
+    for name in sorted(names):
+        found += sets.remarks.get(name, ())
     return tuple(found)
 
 
@@ -149,11 +164,14 @@ def missing_sets(sets: LoadSets, case: Case) -> list[Problem]:
     problems: list[Problem] = []
     for term in case.terms:
         name = term.name
-        if name in sets.weight or name == "H" or (name == "U" and term.vector is not None):
+        if name in sets.weight or name in sets.spread or name == "H":
             continue
-        if name[:1] not in homes or not name[1:]:
+        if name == "U" and term.vector is not None:
+            continue
+        known = name == "S" or name[:4] == "WIND"
+        if not known and (name[:1] not in homes or not name[1:]):
             problems.append(Problem(case.place, f"CASE {case.name}: {name} is not a load set"))
-        elif name[1:] not in homes[name[0]]:
+        elif known or name[1:] not in homes[name[0]]:
             text = f"CASE {case.name}: nothing in the model gives {name}"
             problems.append(Problem(case.place, text))
     return problems

@@ -336,6 +336,7 @@ class SpectrumUse:
     modal: str = "SRSS"  # SRSS GROUP CQC ABS DSUM
     spatial: str = "SRSS"  # or ABS
     groups: str = "ABS"  # or SRSS: independent support motion
+    first: str = "MODES"  # what combines first; or DIRECTIONS
     damping: float = 0.02
     duration: float = 10.0  # of the strong motion, for the double sum [s]
     missing_mass: bool = False
@@ -353,9 +354,11 @@ class Group:
 
 @dataclass(frozen=True, slots=True)
 class Wind:
-    """WIND set: pressure [Pa] against elevation [m], or ASCE 7, with attack direction.
+    """WIND set: pressure [Pa] against elevation [m], or ASCE 7-16, with attack direction.
 
-    `table` holds (elevation, pressure) from velocities or pressures; empty for ASCE 7.
+    `direction` is where the wind blows to, of any length.  `table` holds (elevation, pressure)
+    from velocities or pressures, elevations above `ground` and ascending; empty for ASCE 7.
+    kzt, kd and gust belong to ASCE 7 alone, shape to both.
     """
 
     set: str
@@ -364,16 +367,16 @@ class Wind:
     speed: float | None = None  # ASCE 7 basic wind speed [m/s]
     exposure: str = "C"
     kzt: float = 1.0
-    kd: float = 0.95
+    kd: float = 1.0  # round sections in 7-16; 0.95 before
     gust: float = 0.85
     shape: float = 0.7  # force coefficient of the pipe
-    ground: float = 0.0  # elevation of the ground [m]
+    ground: float = 0.0  # coordinate of the ground along the vertical axis [m]
     place: Place = field(default=Place(), compare=False)
 
 
 @dataclass(frozen=True, slots=True)
 class Snow:
-    """SNOW: uniform vertical load of snow or ice on all pipes [N/m], set S."""
+    """SNOW: vertical load of snow or ice on every length of pipe [N/m], set S; cards add up."""
 
     weight: float
     place: Place = field(default=Place(), compare=False)

@@ -17,9 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trunnion.arrays import F8, SPRING, CaseResult, System
-from trunnion.interior import mid_points, section_axes
-
-Index = NDArray[np.integer]
+from trunnion.balance import section_forces
+from trunnion.interior import mid_points
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,23 +120,15 @@ def pipe_elements(system: System) -> NDArray[np.intp]:
 
 def end_stresses(case: CaseResult) -> tuple[NDArray[np.intp], Stresses, Stresses]:
     """Elements of a solved case with pipe stresses, and these at their first and second ends."""
-    system = case.system
-    element = pipe_elements(system)
-    first = _at_end(case, element, 0)
-    return element, first, _at_end(case, element, 1)
-
-
-def _at_end(case: CaseResult, element: Index, end: int) -> Stresses:
-    """Section forces from the reported end forces: of the part before the section."""
-    if case.state is None or case.loads is None:
+    if case.state is None:
         raise ValueError(f"{case.name} has no numbers")
     system = case.system
-    axes = section_axes(system, element, np.full(len(element), float(end)))
-    sign = 1.0 if end else -1.0
-    force = sign * case.state.end_force[element, end].reshape(-1, 2, 3)
-    local = np.einsum("nij,nkj->nki", axes, force).reshape(-1, 6)
-    pressure = case.loads.pressure[element]
-    return pipe_stresses(system.od[element], system.wall[element], local, pressure)
+    element = pipe_elements(system)
+    od, wall = system.od[element], system.wall[element]
+    pressure = np.zeros(len(element)) if case.loads is None else case.loads.pressure[element]
+    force = section_forces(case)[element]
+    first = pipe_stresses(od, wall, force[:, 0], pressure)
+    return element, first, pipe_stresses(od, wall, force[:, 1], pressure)
 
 
 def mid_stresses(case: CaseResult) -> tuple[tuple[str, ...], Stresses]:

@@ -1,13 +1,27 @@
 """What each support card carries: the contacts and sliders of a case, gathered by card."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from trunnion.arrays import ENGAGED, F8, I4, OPEN, Card, CaseResult, Contacts, Sliders, State
+from trunnion.arrays import (
+    ENGAGED,
+    F8,
+    I4,
+    OPEN,
+    Card,
+    CaseResult,
+    Contacts,
+    Gathered,
+    Sliders,
+    State,
+    System,
+)
 
-STATES = ("open", "engaged", "stick", "slip")
+STATES = ("open", "engaged", "stick", "slip", "free", "locked")
+FREE, LOCKED = 4, 5  # of snubbers
 
 
 def card_ids(cards: Sequence[Card]) -> tuple[str, ...]:
@@ -20,50 +34,92 @@ def card_ids(cards: Sequence[Card]) -> tuple[str, ...]:
     return tuple(ids)
 
 
-def card_forces(case: CaseResult) -> F8:
-    """(n_card, 6) force and moment of each card on the pipe, global [N, N m]."""
-    s, state = case.system, solved(case)
+def gathered(case: CaseResult) -> Gathered:
+    """Forces by card, global [N, N m]: a result's own, or the sums over its contacts."""
+    if case.gathered is not None:
+        return case.gathered
+    s, state = case.system, case.state
+    if state is None:
+        raise ValueError(f"case {case.name} has no numbers")
+    total, friction = contact_sums(s, state.reaction), np.zeros((len(s.cards), 3))
+    normal = total[:, :3].copy()
+    np.add.at(total[:, :3], s.sliders.card, state.friction)
+    np.add.at(friction, s.sliders.card, state.friction)
+    return Gathered(total, normal, friction)
+
+
+def contact_sums(s: System, reaction: F8) -> F8:
+    """(n_card, 6) forces and moments of contacts (n_contact, 3), added up for each card."""
     total = np.zeros((len(s.cards), 6))
     turning = s.contacts.rotational
-    pushes = np.where(turning[:, None], 0.0, state.reaction)
+    pushes = np.where(turning[:, None], 0.0, reaction)
     np.add.at(total[:, :3], s.contacts.card, pushes)
-    np.add.at(total[:, 3:], s.contacts.card[turning], state.reaction[turning])
-    np.add.at(total[:, :3], s.sliders.card, state.friction)
+    np.add.at(total[:, 3:], s.contacts.card[turning], reaction[turning])
     return total
+
+
+def card_forces(case: CaseResult) -> F8:
+    """(n_card, 6) force and moment of each card on the pipe, global [N, N m]."""
+    solved(case)
+    return gathered(case).card_force
+
+
+def card_loads(case: CaseResult) -> F8:
+    """(n_card, 6) load of the pipe on each restraint [N, N m]; a size stays a size."""
+    solved(case)
+    found = gathered(case)
+    return -found.card_force if found.card_load is None else found.card_load
 
 
 def card_friction(case: CaseResult) -> F8:
     """(n_card, 3) friction of each card on the pipe [N]."""
-    total = np.zeros((len(case.system.cards), 3))
-    np.add.at(total, case.system.sliders.card, solved(case).friction)
-    return total
+    solved(case)
+    return gathered(case).card_friction
+
+
+def card_normals(case: CaseResult) -> F8:
+    """(n_card,) size of each card's force on the pipe without its friction [N]."""
+    solved(case)
+    size: F8 = np.linalg.norm(gathered(case).card_normal, axis=1)
+    return size
 
 
 def card_levels(case: CaseResult) -> I4:
-    """(n_card,) index into STATES: the liveliest of the card's contacts and sliders."""
+    """(n_card,) index into STATES: the liveliest of the card's contacts and sliders.
+
+    A card without contacts carries (a hanger without rate), unless it is a free snubber or was
+    open when the contacts were frozen.
+    """
     s, state = case.system, solved(case)
     level = np.zeros(len(s.cards), np.int32)
     closed = (state.side != OPEN).astype(np.int32) * ENGAGED
     np.maximum.at(level, s.contacts.card, closed)
     np.maximum.at(level, s.sliders.card, state.mode)
-    without = np.ones(len(s.cards), bool)
-    without[s.contacts.card] = False
-    level[without] = ENGAGED  # a hanger without rate always carries
+    has = np.zeros(len(s.cards), bool)
+    has[s.contacts.card] = True
+    for i, card in enumerate(s.cards):
+        if card.kind == "snubber":
+            level[i] = LOCKED if has[i] else FREE
+        elif not has[i] and card.kind != "support":
+            level[i] = ENGAGED
     return level
 
 
 def card_states(case: CaseResult) -> list[str | None]:
-    """State of each card in words; None in a combination, which has no state."""
-    if case.kind == "comb":
+    """State of each card in words; None in a combination or spectrum, which has no state."""
+    if case.gathered is not None:
         return [None] * len(case.system.cards)
     return [STATES[i] for i in card_levels(case)]
 
 
-def contact_levels(contacts: Contacts, sliders: Sliders, state: State) -> I4:
+def contact_levels(system: System, state: State) -> I4:
     """(n_contact,) index into STATES."""
+    contacts, sliders = system.contacts, system.sliders
     owner = slider_of(contacts, sliders)
     mode = np.append(state.mode, ENGAGED)[owner]  # owner -1 takes the appended one
     level = np.where(state.side == OPEN, OPEN, np.maximum(mode, ENGAGED))
+    snubber = np.array([card.kind == "snubber" for card in system.cards], bool)
+    level = np.where(snubber[contacts.card], LOCKED, level)
     return level.astype(np.int32)
 
 
@@ -94,3 +150,47 @@ def cause_of(case: CaseResult) -> str:
     if case.certificate is None:
         return "no certificate was computed"
     return f"certificate failed: {case.certificate.worst:.1e} at {case.certificate.where}"
+
+
+def card_nodes(system: System) -> list[int]:
+    """Give the node number of each card."""
+    number = {label: i for i, label in enumerate(system.labels)} | system.alias
+    return [number[card.label] for card in system.cards]
+
+
+@dataclass(frozen=True, slots=True)
+class Envelope:
+    """Extremes over cases, each (n_card, 6), on the pipe; the cases as numbers.
+
+    The number is -1 where no case has a load worth naming.
+    """
+
+    highest: F8
+    lowest: F8
+    highest_case: I4
+    lowest_case: I4
+
+
+def envelope(cases: Sequence[CaseResult]) -> Envelope:
+    """Find the largest and the smallest of each component of every support's load."""
+    force = np.stack([card_forces(case) for case in cases])
+    size = np.abs(force).max(axis=0)
+    halves = [size[:, :3].max(initial=0.0), size[:, 3:].max(initial=0.0)]
+    nothing = size <= 1e-9 * np.repeat(halves, 3)
+    high, low = force.argmax(axis=0), force.argmin(axis=0)
+    return Envelope(
+        np.take_along_axis(force, high[None], axis=0)[0],
+        np.take_along_axis(force, low[None], axis=0)[0],
+        np.where(nothing, -1, high).astype(np.int32),
+        np.where(nothing, -1, low).astype(np.int32),
+    )
+
+
+def range_ratio(loop: F8, alone: F8) -> F8:
+    """Ratio of ranges (..., 6); NaN where the one-shot range is next to nothing of its kind."""
+    ratio = np.full(loop.shape, np.nan)
+    for half in (slice(0, 3), slice(3, 6)):
+        a, b = loop[..., half], alone[..., half]
+        there = b > 1e-6 * np.max([a.max(initial=0.0), np.nan_to_num(b).max(initial=0.0)])
+        ratio[..., half] = np.divide(a, b, out=np.full(a.shape, np.nan), where=there)
+    return ratio

@@ -10,12 +10,22 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from trunnion.arrays import F8, CaseResult, Part
-from trunnion.balance import local_forces
+from trunnion.arrays import F8, Card, CaseResult, CycleResult, Part, Results, System
+from trunnion.balance import local_end_forces
 from trunnion.interior import mid_of_bend
 from trunnion.names import UnknownName
 from trunnion.stresses import Stresses, end_stresses
-from trunnion.supports import card_forces, card_friction, card_ids, card_states, solved
+from trunnion.supports import (
+    card_forces,
+    card_friction,
+    card_ids,
+    card_normals,
+    card_states,
+    is_good,
+    range_ratio,
+    solved,
+)
+from trunnion.supports import envelope as extremes
 
 Cell = float | str | None
 Words = Mapping[str, Sequence[str | None]]
@@ -99,20 +109,18 @@ def supports(case: CaseResult) -> Table:
     `normal` is the size of the force without its friction.
     """
     cards, force, friction = case.system.cards, card_forces(case), card_friction(case)
-    normal = np.linalg.norm(force[:, :3] - friction, axis=1)
     words: Words = {"name": [card.name for card in cards], "state": card_states(case)}
     columns = (*FORCES, "normal", "friction_x", "friction_y", "friction_z")
-    values = np.column_stack([force, normal, friction])
+    values = np.column_stack([force, card_normals(case), friction])
     units = ("N",) * 3 + ("N m",) * 3 + ("N",) * 4
     ids = card_ids(cards)
-    names = {card.name.upper(): i for i, card in reversed(list(enumerate(cards)))}
-    return Table(ids, columns, units, values, words, names | _index(ids))
+    return Table(ids, columns, units, values, words, _card_index(cards))
 
 
 def elements(case: CaseResult) -> Table:
     """End forces on every element, global and in the axes of its ends (x along the pipe)."""
     system, force = case.system, solved(case).end_force
-    both = np.concatenate([force, local_forces(system, force)], axis=1)
+    both = np.concatenate([force, local_end_forces(case)], axis=1)
     ends = ("from", "to", "local_from", "local_to")
     columns = tuple(f"{name}_{end}" for end in ends for name in FORCES)
     units = (("N",) * 3 + ("N m",) * 3) * 4
@@ -139,8 +147,76 @@ def stresses(case: CaseResult) -> Table:
     return Table(labels, tuple(found), ("Pa",) * len(found), values, {}, _index(labels))
 
 
+def envelope(results: Results) -> Table:
+    """Largest and smallest load of every support on the pipe, and the cases they come from."""
+    cases = [case for case in results.cases.values() if is_good(case)]
+    cards = results.system.cards
+    found = extremes(cases)
+    names: list[str | None] = [*(case.name for case in cases), None]  # -1: no case
+    words: dict[str, Sequence[str | None]] = {"name": [card.name for card in cards]}
+    for end, which in (("max", found.highest_case), ("min", found.lowest_case)):
+        for i, component in enumerate(FORCES):
+            words[f"{component}_{end}_case"] = [names[j] for j in which[:, i].tolist()]
+    columns = tuple(f"{component}_{end}" for end in ("max", "min") for component in FORCES)
+    units = (("N",) * 3 + ("N m",) * 3) * 2
+    values = np.concatenate([found.highest, found.lowest], axis=1)
+    return Table(card_ids(cards), columns, units, values, words, _card_index(cards))
+
+
+def support_ranges(cycle: CycleResult) -> Table:
+    """Range of every support load over a cycle, beside that of the cases each on its own.
+
+    `ratio` is that of the two; NaN where one of them is not there or next to nothing.
+    """
+    cards = _system_of(cycle).cards
+    words: Words = {"name": [card.name for card in cards]}
+    ids, index = card_ids(cards), _card_index(cards)
+    return _ranges(ids, index, words, cycle.supports, cycle.one_shot_supports, ("",))
+
+
+def element_ranges(cycle: CycleResult) -> Table:
+    """Range of the end forces over a cycle, global, beside that of the cases on their own."""
+    ids = element_ids(_system_of(cycle).parts)
+    return _ranges(ids, _index(ids), {}, cycle.elements, cycle.one_shot_elements, ("_from", "_to"))
+
+
+def _system_of(cycle: CycleResult) -> System:
+    if cycle.supports is None or not cycle.path:
+        raise ValueError(f"cycle {cycle.name} has no numbers: {cycle.cause}")
+    return cycle.path[0].system
+
+
+def _ranges(
+    ids: Sequence[str],
+    index: Mapping[str, int],
+    words: Words,
+    loop: F8 | None,
+    alone: F8 | None,
+    ends: Sequence[str],
+) -> Table:
+    assert loop is not None
+    once = np.full(loop.shape, np.nan) if alone is None else alone
+    columns = [
+        f"{component}{end}_{what}"
+        for what in ("loop", "one_shot", "ratio")
+        for end in ends
+        for component in FORCES
+    ]
+    n = len(ids)
+    parts = [part.reshape(n, -1) for part in (loop, once, range_ratio(loop, once))]
+    units = ("N",) * 3 + ("N m",) * 3
+    both = units * (2 * len(ends)) + ("",) * (6 * len(ends))
+    return Table(tuple(ids), tuple(columns), both, np.concatenate(parts, axis=1), words, index)
+
+
 def _index(labels: Sequence[str]) -> dict[str, int]:
     return {label: i for i, label in enumerate(labels)}
+
+
+def _card_index(cards: Sequence[Card]) -> dict[str, int]:
+    """Rows of support cards by id and by name; the first of a name has it."""
+    names = {card.name.upper(): i for i, card in reversed(list(enumerate(cards)))}
+    return names | _index(card_ids(cards))
 
 
 def element_ids(parts: Sequence[Part]) -> tuple[str, ...]:

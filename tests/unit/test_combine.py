@@ -5,9 +5,22 @@ import dataclasses
 import numpy as np
 import pytest
 
-from trunnion.arrays import CaseResult, Certificate, Contacts, Item, Loads, Sliders, State, System
+from trunnion.arrays import (
+    CaseResult,
+    Certificate,
+    Contacts,
+    Gathered,
+    Item,
+    Loads,
+    Sliders,
+    State,
+    System,
+    no_contacts,
+    no_sliders,
+)
 from trunnion.combine import combine, evaluate, is_linear, parents
 from trunnion.model import Comb
+from trunnion.supports import gathered
 
 I4 = np.int32
 
@@ -145,5 +158,92 @@ def test_parents_are_named_once():
 
 
 def test_unknown_word_is_an_error():
-    with pytest.raises(KeyError, match="srss"):
-        evaluate(("srss", OPE), {"OPE": None})
+    with pytest.raises(KeyError, match="mean"):
+        evaluate(("mean", OPE), {"OPE": None})
+
+
+def sizes(system, *numbers):
+    """Cases whose every number is one of `numbers`."""
+    found = {}
+    for i, x in enumerate(numbers):
+        found[f"C{i}"] = case(system, f"C{i}", 7)
+        state = found[f"C{i}"].state
+        state.u[:], state.u_low[:] = x, 0.0
+        for array in (state.end_force, state.reaction, state.friction):
+            array[:] = x
+    return found
+
+
+@pytest.mark.parametrize(
+    ("word", "numbers", "expected"),
+    [
+        ("srss", (3.0, -4.0), 5.0),
+        ("srss", (2.0, 3.0, 6.0), 7.0),
+        ("srss", (-1e200, 0.0), 1e200),
+        ("max", (3.0, -4.0), 4.0),
+        ("min", (3.0, -4.0), 3.0),
+        ("signmax", (3.0, -4.0), -4.0),
+        ("signmax", (4.0, -4.0), 4.0),
+        ("signmax", (-4.0, 4.0), 4.0),
+        ("scalar", (3.0, -4.0, 2.0), 1.0),
+    ],
+)
+def test_words_of_many_operands(system, word, numbers, expected):
+    results = sizes(system, *numbers)
+    comb = combine(Comb("C", (word, *(("case", name) for name in results)), ""), results)
+    for array in (comb.state.u, comb.state.end_force, comb.state.reaction):
+        assert np.allclose(array, expected, rtol=1e-15, atol=0)
+    assert comb.linear == (word == "scalar")
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_algebra_of_random_results(system, seed):
+    results = {name: case(system, name, 10 * seed + i) for i, name in enumerate("ABC")}
+    a, b, c = (("case", name) for name in "ABC")
+
+    def row(*expression):
+        state = combine(Comb("X", expression, ""), results).state
+        return [state.u, state.u_low, state.end_force, state.reaction, state.friction]
+
+    def same(left, right, rtol=0.0):
+        return all(np.allclose(x, y, rtol=rtol, atol=0) for x, y in zip(left, right, strict=True))
+
+    assert not any(array.any() for array in row("-", a, a))
+    assert same(row("srss", a)[:1], row("abs", a)[:1])
+    assert same(row("srss", a)[2:], row("abs", a)[2:])
+    for word in ("max", "min", "signmax"):
+        assert same(row(word, a, b, c), row(word, c, a, b))
+    assert same(row("srss", a, b, c)[::2], row("srss", c, b, a)[::2], 1e-15)
+    twice = row("*", 2.0, ("-", a, b))
+    assert same(twice[2:], row("-", ("*", 2.0, a), ("*", 2.0, b))[2:], 1e-14)
+
+
+def test_card_force_of_a_size_is_the_size_of_the_card_force(system):
+    ope = case(system, "OPE", 1)
+    card = gathered(ope).card_force
+    assert np.array_equal(card[0, :3], ope.state.reaction.sum(axis=0) + ope.state.friction[0])
+    comb = combine(Comb("C", ("abs", OPE), ""), {"OPE": ope})
+    assert np.array_equal(gathered(comb).card_force, np.abs(card))
+    assert np.array_equal(gathered(comb).card_load, np.abs(card))
+
+
+def test_cases_on_other_contacts_combine_by_card(system):
+    locked = dataclasses.replace(system, contacts=no_contacts(), sliders=no_sliders())
+    ope, eqx = case(system, "OPE", 1), case(system, "EQX", 2)
+    eqx.system = locked
+    eqx.state = dataclasses.replace(
+        eqx.state, side=np.zeros(0, I4), reaction=np.zeros((0, 3)), friction=np.zeros((0, 3))
+    )
+    eqx.gathered = Gathered(np.full((1, 6), 5.0), np.full((1, 3), 5.0), np.zeros((1, 3)))
+    comb = combine(Comb("C", ("+", OPE, ("case", "EQX")), ""), {"OPE": ope, "EQX": eqx})
+    assert np.array_equal(gathered(comb).card_force, gathered(ope).card_force + 5.0)
+    assert comb.linear
+    assert not len(comb.system.contacts.k)
+
+
+def test_a_result_without_loads_adds_none(system):
+    ope, shock = case(system, "OPE", 1), case(system, "RSX", 2)
+    shock.loads, shock.linear = None, False
+    comb = combine(Comb("C", ("+", OPE, ("case", "RSX")), ""), {"OPE": ope, "RSX": shock})
+    assert np.array_equal(comb.loads.pressure, ope.loads.pressure)
+    assert not comb.linear

@@ -206,7 +206,7 @@ def test_movement_that_no_support_follows_is_named() -> None:
     ]
     sets = load_sets(made, build_system(made))
     assert case_warnings(sets, case("D1")) == (
-        "C: D1 DX at 30 moves nothing: no support there holds it",
+        "D1 DX at 30 moves nothing: no support there holds it",
     )
 
 
@@ -248,7 +248,7 @@ def test_pipes_without_a_temperature_are_counted() -> None:
     made = model()
     made.pipes[1] = replace(made.pipes[1], operation=Operation())
     sets = load_sets(made, build_system(made))
-    assert case_warnings(sets, case("T1")) == ("C: T1 is not given on 1 pipe",)
+    assert case_warnings(sets, case("T1")) == ("T1 is not given on 1 pipe",)
 
 
 def test_friction_factor_goes_through() -> None:

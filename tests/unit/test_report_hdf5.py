@@ -46,7 +46,14 @@ def test_every_place_of_the_file_is_documented(file):
     names: list[str] = []
     file["cases/OPE"].visit(names.append)
     file["model"].visit(names.append)
-    groups = ("state/", "loads/", "stress/", "contacts/", "sliders/")  # as in the records named
+    groups = (
+        "state/",
+        "loads/",
+        "stress/",
+        "contacts/",
+        "sliders/",
+        "snubbers/",
+    )  # as in the records named
     tails = {name.split("/")[-1] for name in names if not name.startswith(groups)}
     assert tails - known == set()
 

@@ -106,6 +106,7 @@ def _spectrum_keys(case: Case, settings: Settings) -> dict[str, Any]:
         "MODAL": use.modal if use.modal != "SRSS" else None,
         "SPATIAL": use.spatial if use.spatial != "SRSS" else None,
         "GROUPS": use.groups if use.groups != "ABS" else None,
+        "FIRST": use.first if use.first != "MODES" else None,
         "DAMPING": use.damping if use.damping != 0.02 else None,
         "DURATION": use.duration if use.duration != 10.0 else None,
         "ZPA": None if use.zpa is None else _in_g(use.zpa, settings.g),

@@ -5,7 +5,10 @@ from trunnion.deck.context import Context
 from trunnion.deck.record import Record
 from trunnion.model import Case, Comb, SpectrumUse
 
-_SPECTRUM = ("MODAL", "SPATIAL", "GROUPS", "DAMPING", "DURATION", "ZPA", "MISSING")
+_SPECTRUM = (
+    *("MODAL", "SPATIAL", "GROUPS", "FIRST"),
+    *("DAMPING", "DURATION", "ZPA", "MISSING"),
+)
 _WITHOUT_HISTORY = ("STEPS", "MUX", "EVENTS", "ITERATION")
 
 
@@ -105,6 +108,7 @@ def spectrum_case(run: Context, record: Record) -> None:
         keys.get("MODAL", "SRSS"),
         keys.get("SPATIAL", "SRSS"),
         keys.get("GROUPS", "ABS"),
+        keys.get("FIRST", "MODES"),
         keys.get("DAMPING", 0.02),
         keys.get("DURATION", 10.0),
         keys.get("MISSING") == "ON",

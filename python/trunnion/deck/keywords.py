@@ -551,6 +551,7 @@ TABLE: tuple[Keyword, ...] = (
             ),
             _choice("SPATIAL", "combination of directions", ("SRSS", "ABS"), "SRSS"),
             _choice("GROUPS", "combination of groups of supports", ("ABS", "SRSS"), "ABS"),
+            _choice("FIRST", "what is combined first", ("MODES", "DIRECTIONS"), "MODES"),
             _number(
                 "DAMPING", "fraction of critical damping", "number", "0.02", Bounds(0.0, 1.0, True)
             ),
@@ -580,6 +581,12 @@ TABLE: tuple[Keyword, ...] = (
             "A response spectrum case is a sum of SPECTRUM(name,X[,factor[,group]]) for the "
             "directions X, Y, Z; it needs a MODES card. MODAL to MISSING belong to it. A group "
             "(GROUP card) makes it independent support motion.",
+            "Groups that move in one direction combine first, mode by mode. Then the modes of each "
+            "direction combine (GROUP, DSUM: US NRC Regulatory Guide 1.92 revision 1; CQC: Der "
+            "Kiureghian), and then the directions; FIRST=DIRECTIONS combines the directions of "
+            "each mode and then the modes, whose signs are lost (it matters for GROUP, CQC, DSUM). "
+            "MISSING=ON adds the static response of the mass that the modes leave out, as one more "
+            "mode apart from all others, at ZPA times the factor.",
             "A deck without CASE and COMB cards takes default cases. SUS = W + P + F1 with the "
             "first set of pressures, and H where hangers are; OPE = W + P1 + T1 + D1 + F1 for each "
             "set of temperatures, pressures and displacements, OPE1, OPE2 ... when there are "

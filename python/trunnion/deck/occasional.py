@@ -6,8 +6,8 @@ from typing import Any
 from trunnion.deck.context import Context
 from trunnion.deck.record import Record
 from trunnion.model import Snow, Wind
+from trunnion.wind import pressure_of
 
-AIR = 1.225  # density of air at sea level and 15 C, International Standard Atmosphere [kg/m3]
 _SOURCES = ("PRESSURE", "VELOCITY", "ASCE7")
 _ASCE7 = ("EXPOSURE", "KZT", "KD", "GUST")
 
@@ -33,7 +33,7 @@ def wind(run: Context, record: Record) -> None:
     else:
         table = keys[given[0]]
     if given[0] == "VELOCITY":
-        table = tuple((z, 0.5 * AIR * v * v) for z, v in table)
+        table = tuple((z, pressure_of(v)) for z, v in table)
     own: dict[str, Any] = {
         key.lower(): keys[key] for key in ("SHAPE", "GROUND", *_ASCE7) if key in keys
     }

@@ -3,7 +3,7 @@
 import numpy as np
 
 from trunnion.arrays import F8, CaseResult
-from trunnion.balance import local_forces
+from trunnion.balance import local_end_forces
 from trunnion.report.columns import Column, numbers, section, table, words
 from trunnion.report.units import ReportUnits
 from trunnion.supports import solved
@@ -25,11 +25,12 @@ def element_tables(case: CaseResult, units: ReportUnits) -> str:
     force = solved(case).end_force
     if not len(force):
         return ""
-    local = local_forces(case.system, force)
+    local = local_end_forces(case)
     name = case.name
     text = section(f"{name}: ELEMENT FORCES", "ON THE ELEMENT at its ends, global")
     text += table(_ends(case, force, units, ("FX", "FY", "FZ", "MX", "MY", "MZ")))
-    note = "ON THE ELEMENT at its ends; x along the pipe there; AXIAL > 0 at the second: tension"
+    note = "ON THE ELEMENT at its ends; x along the pipe there; "
+    note += "AXIAL > 0 at the second: tension" if case.linear else "combined in these axes"
     text += section(f"{name}: ELEMENT FORCES, LOCAL", note)
     heads = ("AXIAL", "SHEAR y", "SHEAR z", "TORSION", "BENDING y", "BENDING z")
     return text + table(_ends(case, local, units, heads))

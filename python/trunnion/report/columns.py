@@ -97,7 +97,7 @@ def table(columns: Sequence[Column], *, none: str = "none") -> str:
     form = "  " + "".join(c.form for c in columns) + "\n"
     cells = chain.from_iterable(zip(*(c.cells for c in columns), strict=True))
     rows = (form * count) % tuple(cells)
-    if columns[-1].left:
+    if columns[-1].form.endswith("s"):
         rows = re.sub(" +$", "", rows, flags=re.MULTILINE)
     return headings(columns) + rows
 

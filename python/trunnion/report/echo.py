@@ -10,6 +10,7 @@ from trunnion.model import Case, Comb, Model
 from trunnion.report.columns import Column, integers, numbers, plain, section, table, words
 from trunnion.report.props import support_echo
 from trunnion.report.units import ReportUnits
+from trunnion.report.winds import wind_echo
 
 
 def input_echo(model: Model, system: System, texts: Mapping[str, str], units: ReportUnits) -> str:
@@ -25,6 +26,7 @@ def input_echo(model: Model, system: System, texts: Mapping[str, str], units: Re
             support_echo(model, system, units),
             _operations(model, units),
             _loads(model, units),
+            wind_echo(model, system, units),
             _cases(model, texts),
         )
     )

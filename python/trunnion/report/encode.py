@@ -55,7 +55,8 @@ def lines(parts: Mapping[str, str]) -> str:
 
 def listing(entries: Iterable[str]) -> str:
     """Write a list, one entry a line."""
-    return "[\n" + ",\n".join(entries) + "\n]"
+    text = ",\n".join(entries)
+    return f"[\n{text}\n]" if text else "[]"
 
 
 def records(columns: Mapping[str, list[str]]) -> list[str]:

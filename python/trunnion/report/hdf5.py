@@ -10,10 +10,20 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from trunnion.arrays import CaseResult, Results, System
-from trunnion.balance import local_forces
+from trunnion.arrays import CaseResult, CycleResult, Results, System
+from trunnion.balance import local_end_forces
+from trunnion.report.loops import step_names
 from trunnion.stresses import end_stresses
-from trunnion.supports import STATES, card_forces, card_ids, card_levels, cause_of, is_good, solved
+from trunnion.supports import (
+    STATES,
+    card_forces,
+    card_ids,
+    card_levels,
+    cause_of,
+    envelope,
+    is_good,
+    solved,
+)
 from trunnion.tables import element_ids
 
 if TYPE_CHECKING:
@@ -32,10 +42,14 @@ def hdf5_report(results: Results) -> bytes:
         file.attrs["title"] = results.title
         _words(file, "case_names", list(results.cases))
         _words(file, "warnings", results.warnings)
-        _model(file.create_group("model"), next(iter(results.cases.values())).system)
+        _model(file.create_group("model"), results.system)
         cases = file.create_group("cases")
         for name, case in results.cases.items():
-            _case(cases.create_group(name), case)
+            _case(cases.create_group(name), case, results.system)
+        _envelope(file.create_group("envelope"), results)
+        cycles = file.create_group("cycles")
+        for name, cycle in results.cycles.items():
+            _cycle(cycles.create_group(name), cycle)
     return stream.getvalue()
 
 
@@ -72,7 +86,16 @@ def _model(group: "h5py.Group", system: System) -> None:
     _words(supports, "cnode", [card.cnode for card in cards])
     supports["line"] = np.array([card.line for card in cards], np.int32)
 
-    for name, record in (("contacts", system.contacts), ("sliders", system.sliders)):
+    _supports(group, system)
+
+
+def _supports(group: "h5py.Group", system: System) -> None:
+    """Contacts and sliders; snubbers are those that static cases do not see."""
+    for name, record in (
+        ("contacts", system.contacts),
+        ("sliders", system.sliders),
+        ("snubbers", system.snubbers),
+    ):
         inner = group.create_group(name)
         for field in fields(record):
             value = getattr(record, field.name)
@@ -82,8 +105,12 @@ def _model(group: "h5py.Group", system: System) -> None:
                 inner[field.name] = value
 
 
-def _case(group: "h5py.Group", case: CaseResult) -> None:
-    """One case; what is not certified has its cause and no numbers."""
+def _case(group: "h5py.Group", case: CaseResult, base: System) -> None:
+    """One case; what is not certified has its cause and no numbers.
+
+    A case on other contacts than the model's (frozen, snubbers locked) or another modulus brings
+    its own.
+    """
     good, found = is_good(case), case.certificate
     group.attrs["kind"], group.attrs["text"] = case.kind, case.text
     group.attrs["converged"] = good
@@ -101,12 +128,23 @@ def _case(group: "h5py.Group", case: CaseResult) -> None:
         for key, value in counts.items():
             inner.attrs[key] = value
     _words(group, "warnings", case.warnings)
-    if good:
-        _numbers(group, case)
+    if not good:
+        return
+    _numbers(group, case)
+    if case.system.contacts is not base.contacts:
+        _supports(group, case.system)
+    if case.system.rigidity is not base.rigidity:
+        group["rigidity"] = case.system.rigidity
+    if case.frozen_check:
+        broken = group.create_group("frozen_check")
+        broken["support"] = np.array([b.card for b in case.frozen_check], np.int32)
+        _words(broken, "dir", [b.word for b in case.frozen_check])
+        _words(broken, "what", [b.what for b in case.frozen_check])
+        broken["amount"] = np.array([b.amount for b in case.frozen_check], np.float64)
 
 
 def _numbers(group: "h5py.Group", case: CaseResult) -> None:
-    state, system = solved(case), case.system
+    state = solved(case)
     inner = group.create_group("state")
     for field in fields(state):
         inner[field.name] = getattr(state, field.name)
@@ -114,9 +152,9 @@ def _numbers(group: "h5py.Group", case: CaseResult) -> None:
         inner = group.create_group("loads")
         for field in fields(case.loads):
             inner[field.name] = getattr(case.loads, field.name)
-    group["local_force"] = local_forces(system, state.end_force)
+    group["local_force"] = local_end_forces(case)
     group["support_force"] = card_forces(case)
-    if case.kind == "case":
+    if case.gathered is None:
         group["support_state"] = card_levels(case).astype(np.int8)
         group["support_state"].attrs["words"] = ",".join(STATES)
     element, *ends = end_stresses(case)
@@ -124,3 +162,30 @@ def _numbers(group: "h5py.Group", case: CaseResult) -> None:
     inner["element"] = element.astype(np.int32)
     for field in fields(ends[0]):
         inner[field.name] = np.column_stack([getattr(end, field.name) for end in ends])
+
+
+def _envelope(group: "h5py.Group", results: Results) -> None:
+    """Extremes of the support loads; the cases as rows of /case_names, -1: none."""
+    at = [i for i, case in enumerate(results.cases.values()) if is_good(case)]
+    if not at:
+        return
+    cases = list(results.cases.values())
+    found, number = envelope([cases[i] for i in at]), np.array([*at, -1], np.int32)
+    group["max"], group["max_case"] = found.highest, number[found.highest_case]
+    group["min"], group["min_case"] = found.lowest, number[found.lowest_case]
+
+
+def _cycle(group: "h5py.Group", cycle: CycleResult) -> None:
+    """One cycle: ranges, and the support loads after every step."""
+    group.attrs["cases"] = ", ".join(cycle.cases)
+    group.attrs["loops"], group.attrs["repeats"] = cycle.loops, cycle.repeats
+    group.attrs["change"] = cycle.change
+    if cycle.cause:
+        group.attrs["cause"] = cycle.cause
+    for name in ("supports", "elements", "one_shot_supports", "one_shot_elements"):
+        value = getattr(cycle, name)
+        if value is not None:
+            group[name] = value
+    _words(group, "step", step_names(cycle))
+    if cycle.path:
+        group["path"] = np.stack([card_forces(step) for step in cycle.path])

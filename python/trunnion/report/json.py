@@ -9,9 +9,10 @@ from collections.abc import Mapping
 import numpy as np
 
 from trunnion.arrays import F8, CaseResult, Certificate, Results, System
-from trunnion.balance import load_sum, local_forces, reaction_sum
+from trunnion.balance import load_sum, local_end_forces, reaction_sum
 from trunnion.interior import mid_of_bend
 from trunnion.report.encode import dump, finite, lines, listing, records, rows, short, words
+from trunnion.report.json_runs import cycle_entries, envelope_entries, frozen_entries
 from trunnion.report.json_supports import support_entries
 from trunnion.stresses import end_stresses
 from trunnion.supports import cause_of, is_good, solved
@@ -29,9 +30,12 @@ def json_report(results: Results) -> bytes:
         "schema": "1",
         "title": dump(results.title),
         "cases": lines({name: _case(case) for name, case in results.cases.items()}),
-        "warnings": dump(list(results.warnings)),
-        "work": dump(results.work),
+        "envelope": envelope_entries(results),
     }
+    if results.cycles:
+        parts["cycles"] = cycle_entries(results)
+    parts["warnings"] = dump(list(results.warnings))
+    parts["work"] = dump(results.work)
     return (lines(parts) + "\n").encode()
 
 
@@ -44,6 +48,7 @@ def _case(case: CaseResult) -> str:
         "cause": dump(None if good else cause_of(case)),
         "certificate": dump(_certificate(case.certificate)),
         "frozen": dump(list(case.frozen)),
+        "frozen_check": frozen_entries(case),
         "warnings": dump(list(case.warnings)),
         "work": dump(case.work),
         "history": listing(dump(_finite(record)) for record in case.history),
@@ -93,7 +98,7 @@ def _by_node(system: System, values: F8, middles: Mapping[str, F8]) -> str:
 def _elements(case: CaseResult) -> str:
     """Write one line an element; local axes have x along the pipe's tangent at that end."""
     parts, force = case.system.parts, solved(case).end_force
-    local = local_forces(case.system, force)
+    local = local_end_forces(case)
     fields = {
         "id": words(element_ids(parts)),
         "from": words(part.start for part in parts),

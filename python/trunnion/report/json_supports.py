@@ -18,6 +18,7 @@ from trunnion.supports import (
     card_forces,
     card_friction,
     card_ids,
+    card_normals,
     card_states,
     contact_levels,
     slider_of,
@@ -29,7 +30,6 @@ def support_entries(case: CaseResult) -> str:
     """Write the list of supports of one case."""
     cards = case.system.cards
     force, friction = card_forces(case), card_friction(case)
-    normal = np.linalg.norm(force[:, :3] - friction, axis=1)
     entries = records(
         {
             "id": words(card_ids(cards)),
@@ -41,7 +41,7 @@ def support_entries(case: CaseResult) -> str:
             "state": words(card_states(case)),
             "force": rows(force[:, :3]),
             "moment": rows(force[:, 3:]),
-            "normal": numbers(normal),
+            "normal": numbers(card_normals(case)),
             "friction": rows(friction),
             "contacts": _by_card(case.system.contacts.card, _contacts(case), len(cards)),
             "sliders": _by_card(case.system.sliders.card, _sliders(case), len(cards)),
@@ -52,8 +52,8 @@ def support_entries(case: CaseResult) -> str:
 
 def _contacts(case: CaseResult) -> list[str]:
     """One entry a direction word; a combination has none."""
-    contacts, sliders, state = case.system.contacts, case.system.sliders, solved(case)
-    if case.kind == "comb":
+    contacts, state = case.system.contacts, solved(case)
+    if case.gathered is not None:
         return []
     friction, slide, normal, mu = _first_of_slider(case)
     along = np.einsum("ci,ci->c", state.reaction, contacts.normal[:, 0])
@@ -63,7 +63,7 @@ def _contacts(case: CaseResult) -> list[str]:
         {
             "dir": words(contacts.word),
             "side": [str(i) for i in side.tolist()],
-            "state": words(STATES[i] for i in contact_levels(contacts, sliders, state)),
+            "state": words(STATES[i] for i in contact_levels(case.system, state)),
             "reaction": numbers(signed),
             "mu": numbers(mu),
             "normal": numbers(normal),
@@ -94,7 +94,7 @@ def _first_of_slider(case: CaseResult) -> tuple[F8, F8, F8, F8]:
 def _sliders(case: CaseResult) -> list[str]:
     """One entry a friction element, with the datum it slides from."""
     sliders, state = case.system.sliders, solved(case)
-    if case.kind == "comb":
+    if case.gathered is not None:
         return []
     local = _rank(case.system.contacts.card)
     return records(

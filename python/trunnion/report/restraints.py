@@ -4,10 +4,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from trunnion.arrays import F8, CaseResult, System
+from trunnion.arrays import F8, CaseResult
 from trunnion.report.columns import Column, headings, numbers, plain, section, table, words
 from trunnion.report.units import ReportUnits
-from trunnion.supports import card_forces, card_states, solved
+from trunnion.supports import card_loads, card_nodes, card_states, solved
 
 NOTE = "forces and moments ON THE RESTRAINT, global; movements of the pipe at the node"
 COMPONENTS = ("FX", "FY", "FZ", "MX", "MY", "MZ")
@@ -18,18 +18,12 @@ def restraint_summary(cases: Sequence[CaseResult], units: ReportUnits) -> str:
     if not cases or not cases[0].system.cards:
         return "\n  none\n"
     system = cases[0].system
-    force = np.stack([-card_forces(case) for case in cases], axis=1)  # (n_card, n_case, 6)
+    force = np.stack([card_loads(case) for case in cases], axis=1)  # (n_card, n_case, 6)
     node = card_nodes(system)
     move = np.stack([solved(case).u[node, :3] for case in cases], axis=1)
     text = section("LARGEST OF ALL") + _largest_of_all(cases, force, units)
     text += section("EVERY RESTRAINT", NOTE) + _blocks(cases, force, move, units)
     return text + _hangers(cases, force, move, units)
-
-
-def card_nodes(system: System) -> list[int]:
-    """Give the node number of each card."""
-    number = {label: i for i, label in enumerate(system.labels)} | system.alias
-    return [number[card.label] for card in system.cards]
 
 
 def _quantities(force: F8, move: F8, units: ReportUnits) -> list[Column]:

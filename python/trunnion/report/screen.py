@@ -2,6 +2,8 @@
 
 from trunnion.arrays import Results
 from trunnion.model import Model
+from trunnion.report.frozen import frozen_warning
+from trunnion.report.loops import cycle_warnings
 from trunnion.report.summary import summary_table
 from trunnion.report.units import report_units
 from trunnion.supports import cause_of, is_good
@@ -11,18 +13,21 @@ CASES, CAUSES, WARNINGS = 10, 4, 4  # lines of each
 
 def screen(results: Results, model: Model) -> tuple[bool, str]:
     """Tell whether every case is certified, and the text to print."""
-    cases = results.cases
+    cases, units = results.cases, report_units(model.units)
     bad = [name for name, case in cases.items() if not is_good(case)]
     shown = (bad + [name for name in cases if name not in bad])[:CASES]
     lines = [results.title] if results.title else []
-    lines.append(summary_table(results, report_units(model.units), only=shown).rstrip("\n"))
+    lines.append(summary_table(results, units, only=shown).rstrip("\n"))
     if len(cases) > len(shown):
         lines.append(f"  ... and {len(cases) - len(shown)} more cases in the report")
     lines += _some([f"{name}: {cause_of(cases[name])}" for name in bad], CAUSES)
     warnings = list(results.warnings)
     warnings += [f"{c.name}: {text}" for c in cases.values() for text in c.warnings]
+    warnings += [text for case in cases.values() for text in frozen_warning(case, units)]
+    warnings += cycle_warnings(results)
     lines += _some([f"warning: {text}" for text in warnings], WARNINGS)
-    return not bad, "\n".join(lines)
+    broken = [name for name, cycle in results.cycles.items() if cycle.cause]
+    return not bad and not broken, "\n".join(lines)
 
 
 def _some(texts: list[str], most: int) -> list[str]:

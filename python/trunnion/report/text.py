@@ -1,10 +1,12 @@
 """The text report `.out`: input, summary, restraints, the answers of every case, their proof."""
 
-from trunnion.arrays import CaseResult, Results, System
-from trunnion.model import Model
+from trunnion.arrays import CaseResult, Results
+from trunnion.model import Case, Model
 from trunnion.report.answers import displacement_table, element_tables
 from trunnion.report.columns import PAGE, chapter, section, wrapped
 from trunnion.report.echo import input_echo
+from trunnion.report.frozen import frozen_table, frozen_warning
+from trunnion.report.loops import cycle_report, cycle_warnings
 from trunnion.report.points import middle_table, sag_table, stress_table
 from trunnion.report.proof import balance_table, certificate_table, history_table, ledger_table
 from trunnion.report.restraints import restraint_summary
@@ -29,27 +31,34 @@ def text_report(results: Results, model: Model) -> bytes:
     parts.append(chapter("1  SUMMARY"))
     parts.append(summary_table(results, units))
     parts += [wrapped(f"{c.name}: {cause_of(c)}") for c in results.cases.values() if not is_good(c)]
-    parts.append(warnings(results))
+    parts.append(warnings(results, units))
     parts.append(chapter("2  INPUT"))
     texts = {name: case.text for name, case in results.cases.items()}
-    parts.append(input_echo(model, _system(results), texts, units))
+    parts.append(input_echo(model, results.system, texts, units))
     parts.append(chapter("3  LOADS ON RESTRAINTS"))
     parts.append(restraint_summary(good, units))
     parts.append(chapter("4  RESULTS BY CASE"))
     parts.append(wrapped(CERTIFIED, ""))
-    parts += [_case(case, units) for case in results.cases.values()]
-    parts.append(chapter("5  WORK"))
+    locked = {c.name for c in model.cases if isinstance(c, Case) and is_locked(c)}
+    parts += [_case(case, units, case.name in locked) for case in results.cases.values()]
+    number = 5
+    if results.cycles:
+        parts.append(chapter(f"{number}  CYCLES"))
+        parts += [cycle_report(cycle, units) for cycle in results.cycles.values()]
+        number += 1
+    parts.append(chapter(f"{number}  WORK"))
     work = {name: case.work for name, case in results.cases.items()}
     parts.append(ledger_table(work | {"whole run": results.work}))
     parts.append(f"\n{'END OF REPORT':^{PAGE}}".rstrip() + "\n")
     return "".join(parts).encode(errors="replace")
 
 
-def _system(results: Results) -> System:
-    return next(iter(results.cases.values())).system
+def is_locked(case: Case) -> bool:
+    """Tell whether a case stands on the frozen contact state of another."""
+    return bool(case.about or case.on) and not case.nonlinear
 
 
-def _case(case: CaseResult, units: ReportUnits) -> str:
+def _case(case: CaseResult, units: ReportUnits, locked: bool) -> str:
     title = f"{case.name} = {case.text}"
     text = f"\n\n{title}\n{'=' * len(title)}\n"
     if not is_good(case):
@@ -57,6 +66,7 @@ def _case(case: CaseResult, units: ReportUnits) -> str:
         return text + certificate_table(case) + history_table(case)
     return text + "".join(
         (
+            frozen_table(case, units) if locked else "",
             displacement_table(case, units),
             state_table(case, units),
             element_tables(case, units),
@@ -70,10 +80,12 @@ def _case(case: CaseResult, units: ReportUnits) -> str:
     )
 
 
-def warnings(results: Results) -> str:
+def warnings(results: Results, units: ReportUnits) -> str:
     """Print the warnings of the run and of every case."""
     text = section("WARNINGS")
     lines = [*results.warnings]
     for case in results.cases.values():
         lines += [f"{case.name}: {line}" for line in case.warnings]
+        lines += frozen_warning(case, units)
+    lines += cycle_warnings(results)
     return text + ("".join(wrapped(line) for line in lines) or "  none\n")

@@ -16,10 +16,10 @@ from trunnion.arrays import (
     Contacts,
     FrozenBreak,
     Loads,
-    Sliders,
     State,
     System,
     no_contacts,
+    no_sliders,
 )
 
 
@@ -75,21 +75,6 @@ def chosen(a: Contacts, keep: I4) -> Contacts:
         if name != "word"
     }
     return Contacts(**arrays, word=tuple(a.word[i] for i in keep))
-
-
-def no_sliders() -> Sliders:
-    """No friction."""
-    none = np.zeros(0, np.int32)
-    return Sliders(
-        node=none,
-        cnode=none,
-        card=none,
-        basis=np.zeros((0, 2, 3)),
-        mu=np.zeros(0),
-        kf=np.zeros(0),
-        first=np.zeros(1, np.int32),
-        contact=none,
-    )
 
 
 def frozen_breaks(

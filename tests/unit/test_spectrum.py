@@ -1,0 +1,311 @@
+"""Response spectra of structures whose modes and answers are known in closed form."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pytest
+
+from trunnion.arrays import Certificate
+from trunnion.balance import local_forces
+from trunnion.deck.reader import read_text
+from trunnion.errors import ModelError
+from trunnion.model import Case, Group, Shock, Spectrum, SpectrumUse
+from trunnion.solver.ledger import Ledger
+from trunnion.solver.spectrum import acceleration
+from trunnion.solver.structure import Structure
+from trunnion.spectrumcase import group_influence, group_participation, recover, spectrum_case
+from trunnion.system import build_system
+
+MASS, L, K = 500.0, 4.0, 1e12
+
+HEAD = """\
+TITLE    Weightless pipe with a mass
+UNITS    m N Pa C
+DEFAULT  SHEAR=OFF
+MATERIAL STEEL  E=200e9 NU=0.3
+SECTION  P      OD=0.2 WALL=0.01
+"""
+CANTILEVER = (
+    HEAD
+    + """\
+ANCHOR   10
+PIPE     10 20  DX=4
+FORCE    20 F1  FY=1
+CASE A = F1
+"""
+)
+BEAM = (
+    HEAD
+    + """\
+SUPPORT  10     X Y Z RX K=1e12
+PIPE     10 20  DX=4
+PIPE     20 30  DX=4
+SUPPORT  30     Y Z K=1e12
+FORCE    20 F1  FY=1
+CASE A = F1
+"""
+)
+
+FLAT = Spectrum("FLAT", (1.0, 100.0), (3.0, 3.0))
+HALF = Spectrum("HALF", (1.0, 100.0), (1.5, 1.5))
+SPECTRA = {"FLAT": FLAT, "HALF": HALF}
+
+
+@dataclass
+class Modes:
+    """Mass-normalised modes."""
+
+    frequency: np.ndarray
+    shape: np.ndarray
+    participation: np.ndarray
+
+
+@dataclass
+class Scene:
+    """A structure that carries one mass at node 20: a mode a direction."""
+
+    structure: Structure
+    modes: Modes
+    flexibility: np.ndarray  # (3,) of the mass in X, Y, Z [m/N]
+
+    def node(self, label):
+        return self.structure.system.labels.index(label)
+
+    def rigid(self, influence):
+        """Static displacements under the inertia of unit acceleration."""
+        r = np.zeros_like(influence)
+        at = self.node("20")
+        r[at, :3] = MASS * influence[at, :3]
+        return self.structure.solve(r)
+
+
+def scene(deck):
+    """Modes from static flexibilities: with one mass they are exact."""
+    structure = Structure(build_system(read_text(deck, "one_mass.inp")), Ledger())
+    at = structure.system.labels.index("20")
+    structure.factorise(structure.closed_tangent, np.zeros((1, 3, 3)))
+    unit = np.zeros((3, structure.n_node, 6))
+    unit[[0, 1, 2], at, [0, 1, 2]] = 1.0
+    moved = structure.solve(unit)
+    flexibility, way = np.linalg.eigh(moved[:, at, :3])
+    flexibility, way = flexibility[::-1], way[:, ::-1]
+    shape = np.einsum("an...,ai->in...", moved, way)
+    shape = shape / (flexibility * np.sqrt(MASS))[:, None, None]
+    frequency = 1.0 / np.sqrt(MASS * flexibility) / (2.0 * np.pi)
+    modes = Modes(frequency, shape, np.sqrt(MASS) * way.T)
+    return Scene(structure, modes, np.diag(moved[:, at, :3]))
+
+
+@pytest.fixture(scope="module")
+def cantilever():
+    return scene(CANTILEVER)
+
+
+@pytest.fixture(scope="module")
+def beam():
+    return scene(BEAM)
+
+
+def case(*shocks, **use):
+    return Case("RS", (), spectrum=SpectrumUse(tuple(shocks), **use))
+
+
+def solve(scene, *shocks, groups=(), modes=None, **use):
+    modes = modes or scene.modes
+    return spectrum_case(case(*shocks, **use), scene.structure, modes, SPECTRA, groups, scene.rigid)
+
+
+# ---------------------------------------------------------------------- spectra
+def test_interpolation_in_logarithms():
+    """Halfway in the logarithm of the frequency stands the geometric mean."""
+    spectrum = Spectrum("S", (1.0, 100.0), (2.0, 8.0))
+    assert acceleration(spectrum, np.array([10.0])) == pytest.approx([4.0], rel=1e-14)
+
+
+def test_interpolation_in_frequency_and_in_period():
+    """1 and 4 Hz are 1 and 0.25 s: 2.5 Hz is halfway in frequency, 1.6 Hz halfway in period."""
+    spectrum = Spectrum("S", (1.0, 4.0), (2.0, 8.0), log=False)
+    assert acceleration(spectrum, np.array([2.5])) == pytest.approx([5.0], rel=1e-14)
+    by_period = replace(spectrum, by_period=True)
+    assert acceleration(by_period, np.array([1.6])) == pytest.approx([5.0], rel=1e-14)
+
+
+@pytest.mark.parametrize("way", [{}, {"log": False}, {"log": False, "by_period": True}])
+def test_end_values_hold_beyond_the_ends(way):
+    spectrum = Spectrum("S", (1.0, 4.0), (2.0, 8.0), **way)
+    assert acceleration(spectrum, np.array([0.01, 1e3])) == pytest.approx([2.0, 8.0], rel=1e-14)
+
+
+# ---------------------------------------------------------------------- one mass
+def test_one_mass_in_closed_form(cantilever):
+    """u = Sa/w2 at the tip; shear m Sa and moment m Sa L at the anchor, in the local axes too."""
+    result = solve(cantilever, Shock("FLAT", "Y"))
+    i = 2.0 * np.pi / 64.0 * (0.2**4 - 0.18**4) / 2.0
+    c = L**3 / (3.0 * 200e9 * i) + 1.0 / K + L**2 / K
+    assert cantilever.flexibility[1] == pytest.approx(c, rel=1e-10)
+    tip = result.state.u[cantilever.node("20")]
+    assert tip[1] == pytest.approx(3.0 * MASS * c, rel=1e-10)
+    force = np.array([0.0, 3.0 * MASS, 0.0, 0.0, 0.0, 3.0 * MASS * L])
+    for found in (result.state.end_force[0, 0], result.gathered.local_force[0, 0]):
+        assert found == pytest.approx(force, rel=1e-9, abs=1e-9)
+    assert result.gathered.card_force[0] == pytest.approx(force, rel=1e-9, abs=1e-9)
+    assert result.state.reaction.sum(axis=0)[1] == pytest.approx(3.0 * MASS, rel=1e-9)
+    assert not result.linear
+    assert result.text == "SPECTRUM(FLAT,Y)"
+
+
+def test_factor_scales(cantilever):
+    one = solve(cantilever, Shock("FLAT", "Y"))
+    two = solve(cantilever, Shock("HALF", "Y", 2.0))
+    assert two.state.u == pytest.approx(one.state.u, rel=1e-14)
+    assert two.text == "SPECTRUM(HALF,Y,2)"
+
+
+@pytest.mark.parametrize("first", ["MODES", "DIRECTIONS"])
+@pytest.mark.parametrize("spatial", ["SRSS", "ABS"])
+def test_directions_combine(cantilever, spatial, first):
+    """A skew quantity would feel all; here each direction has a mode of its own."""
+    shocks = Shock("FLAT", "X"), Shock("HALF", "Y"), Shock("FLAT", "Z")
+    result = solve(cantilever, *shocks, modal="SRSS", spatial=spatial, first=first)
+    force = result.state.end_force[0, 1, :3]
+    assert force == pytest.approx(MASS * np.array([3.0, 1.5, 3.0]), rel=1e-9)
+
+
+def test_signs_are_lost_where_directions_combine_first(cantilever):
+    """Bending in Y and in Z has one frequency; its modes may as well stand at 45 degrees.
+
+    CQC adds such modes with their signs, so shocks in Y and Z give a in Y and in Z whatever the
+    modes.  Directions first, each mode gets a, without sign: sqrt(2) a in one and nothing in the
+    other.
+    """
+    modes = cantilever.modes
+    shape, gamma = modes.shape.copy(), modes.participation.copy()
+    for turned in (shape, gamma):
+        one, other = turned[0].copy(), turned[1].copy()
+        turned[0], turned[1] = (one + other) / np.sqrt(2.0), (one - other) / np.sqrt(2.0)
+    skew = Modes(modes.frequency, shape, gamma)
+    shocks = Shock("FLAT", "Y"), Shock("FLAT", "Z")
+    a = 3.0 * MASS * cantilever.flexibility[1]
+    for first, factors in (("MODES", (1.0, 1.0)), ("DIRECTIONS", (0.0, np.sqrt(2.0)))):
+        found = solve(cantilever, *shocks, modes=skew, modal="CQC", first=first).state
+        tip = np.sort(found.u[cantilever.node("20"), 1:3])
+        assert tip == pytest.approx(a * np.array(factors), rel=1e-7, abs=1e-7 * a)
+
+
+def test_one_direction_keeps_its_signs(cantilever):
+    shock = Shock("FLAT", "Z")
+    for modal in ("CQC", "SRSS"):
+        found = [
+            solve(cantilever, shock, modal=modal, first=first).state.end_force
+            for first in ("MODES", "DIRECTIONS")
+        ]
+        assert found[0] == pytest.approx(found[1], rel=1e-14)
+
+
+# ---------------------------------------------------------------------- missing mass
+def test_missing_mass_is_static(cantilever):
+    """Without its mode a direction answers with the static force at zero period acceleration."""
+    modes = cantilever.modes
+    bending = Modes(modes.frequency[:2], modes.shape[:2], modes.participation[:2])
+    for zpa, a in ((None, 3.0), (7.0, 7.0)):
+        shocks = Shock("FLAT", "X"), Shock("FLAT", "Y")
+        result = solve(cantilever, *shocks, modes=bending, missing_mass=True, zpa=zpa)
+        force = result.state.end_force[0, 1, :3]
+        assert force[0] == pytest.approx(MASS * a, rel=1e-9)
+        assert force[1] == pytest.approx(MASS * 3.0, rel=1e-9)
+    without = solve(cantilever, Shock("FLAT", "X"), modes=bending)
+    assert without.state.end_force[0, 1, 0] == pytest.approx(0.0, abs=1e-6)
+
+
+def test_missing_mass_of_complete_modes_is_nothing(cantilever):
+    shocks = Shock("FLAT", "X"), Shock("FLAT", "Y"), Shock("FLAT", "Z")
+    with_it = solve(cantilever, *shocks, missing_mass=True, modal="ABS").state
+    without = solve(cantilever, *shocks, modal="ABS").state
+    assert with_it.end_force == pytest.approx(without.end_force, rel=1e-9, abs=1e-6)
+
+
+# ---------------------------------------------------------------------- groups of supports
+NEAR, FAR = Group("NEAR", ("10",)), Group("FAR", ("30",))
+
+
+def test_one_end_moves_the_middle_by_half(beam):
+    """Influence of one end of a simple beam; its participation is half of the uniform one."""
+    far = group_influence(beam.structure, {beam.node("30")}, 1)
+    assert far[:, 1] == pytest.approx([0.0, 0.5, 1.0], abs=1e-6)
+    shapes = recover(beam.structure, beam.modes.shape)
+    system, modes = beam.structure.system, beam.modes
+    shares = [
+        group_participation(system, {beam.node(end)}, 1, modes.frequency, shapes.reaction)
+        for end in ("10", "30")
+    ]
+    at = beam.node("20")
+    by_mass = modes.shape[:, at, 1] * MASS * far[at, 1]
+    assert shares[1] == pytest.approx(by_mass, rel=1e-9, abs=1e-9)
+    assert sum(shares) == pytest.approx(modes.participation[:, 1], rel=1e-9, abs=1e-9)
+
+
+@pytest.mark.parametrize(("groups", "factor"), [("ABS", 1.0), ("SRSS", np.sqrt(0.5))])
+def test_groups_combine(beam, groups, factor):
+    """Both ends alike: the absolute sum is the uniform motion, SRSS is less."""
+    shocks = [Shock("FLAT", "Y", 1.0, name) for name in ("NEAR", "FAR")]
+    use = SpectrumUse(tuple(shocks), groups=groups)
+    found = spectrum_case(
+        Case("RS", (), spectrum=use), beam.structure, beam.modes, SPECTRA, (NEAR, FAR)
+    )
+    uniform = solve(beam, Shock("FLAT", "Y"))
+    assert found.state.u == pytest.approx(factor * uniform.state.u, rel=1e-9, abs=1e-15)
+    assert found.text == "SPECTRUM(FLAT,Y,1,NEAR) + SPECTRUM(FLAT,Y,1,FAR)"
+
+
+def test_missing_mass_of_a_group(beam):
+    """The vertical modes left out, half of the mass follows one end: its reactions are halves."""
+    modes = beam.modes
+    keep = np.flatnonzero(modes.participation[:, 1] == 0.0)
+    some = Modes(modes.frequency[keep], modes.shape[keep], modes.participation[keep])
+    use = SpectrumUse((Shock("FLAT", "Y", 1.0, "FAR"),), missing_mass=True)
+    found = spectrum_case(
+        Case("RS", (), spectrum=use), beam.structure, some, SPECTRA, (NEAR, FAR), beam.rigid
+    )
+    assert found.gathered.card_force[:, 1] == pytest.approx([375.0, 375.0], rel=1e-6)
+
+
+def test_group_without_support_is_named(beam):
+    shock = Shock("FLAT", "Y", 1.0, "MIDDLE")
+    with pytest.raises(ModelError, match="GROUP MIDDLE: no support stands at 20"):
+        spectrum_case(
+            case(shock), beam.structure, beam.modes, SPECTRA, (Group("MIDDLE", ("10", "20")),)
+        )
+    with pytest.raises(ModelError, match="group MIDDLE is not defined"):
+        spectrum_case(case(shock), beam.structure, beam.modes, SPECTRA)
+
+
+def test_free_structure_is_refused(beam):
+    modes = beam.modes
+    loose = Modes(np.array([0.0, *modes.frequency[1:]]), modes.shape, modes.participation)
+    with pytest.raises(ModelError, match="moves freely"):
+        solve(beam, Shock("FLAT", "Y"), modes=loose)
+
+
+# ---------------------------------------------------------------------- reports
+SKEW = CANTILEVER.replace("DX=4", "DX=2.4 DY=3.2")
+PROVEN = Certificate(True, 1e-12, "mode 1", ())
+
+
+def test_largest_values_do_not_turn_with_the_axes():
+    """On a skew pipe the largest global forces, turned, are not the largest local ones.
+
+    Shocks in X and Y give axial m Sa and shear m Sa at most; the turned global ones would be
+    1.4 and 0.2 times that.
+    """
+    tilted = scene(SKEW)
+    shocks = Shock("FLAT", "X"), Shock("FLAT", "Y")
+    result = spectrum_case(
+        case(*shocks), tilted.structure, tilted.modes, SPECTRA, certificate=PROVEN
+    )
+    wrong = local_forces(result.system, result.state.end_force)[0, 1, :2]
+    assert np.abs(wrong) == pytest.approx(3.0 * MASS * np.array([1.4, 0.2]), rel=1e-6)
+    row = result.elements["10-20"]
+    found = [row[f"{name}_local_to"] for name in ("fx", "fy")]
+    assert found == pytest.approx([3.0 * MASS] * 2, rel=1e-6)
+    axial = result.stresses["10-20"]["axial_to"]
+    assert axial == pytest.approx(3.0 * MASS / (np.pi / 4.0 * (0.2**2 - 0.18**2)), rel=1e-6)
