@@ -76,9 +76,7 @@ def guide(result):
 
 @pytest.mark.parametrize("case", ["A", "QUARTERS"])
 def test_the_fraction_of_the_closing_is_exact(tip, case):
-    share = CLOSES * (
-        4 if case == "QUARTERS" else 1
-    )  # 0.2007 of the load: within the first quarter
+    share = CLOSES * (4 if case == "QUARTERS" else 1)  # 0.2007 of the load, in the first quarter
     assert tip[case].warnings == (f"EVENT: 20 GUIDE closes at {share:.6g} of the step",)
 
 
