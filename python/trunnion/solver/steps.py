@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -14,7 +15,7 @@ from trunnion.solver.verdict import commit
 
 RAMPS = (2, 4, 8, 16, 32, 64)
 EVENTS = 200  # closings located in one step, at most
-LAST_PASSES = 3000  # of the status iteration where newton has failed
+LAST_PASSES = 3000  # of the status iteration in a fallback
 LOCATED = 1e-10  # of the gap, where the load fraction of a closing counts as found
 
 Step = Callable[[Structure, Point, Sliding, Forcing, History], Solved]
@@ -110,11 +111,12 @@ def _fallbacks(
     """Ramping, then the status iteration with freezing; the first cause stands if all fail."""
     if "without bound" in (first.cause or ""):
         return first
+    again = partial(solve_status, passes=LAST_PASSES) if solve is solve_status else solve
     for n in RAMPS:
         if not (law.mu > 0.0).any():
             break  # without history a ramp ends where one step does
         _return(point, before)
-        solved = _ramp(structure, point, law, start, target, solve, history, n)
+        solved = _ramp(structure, point, law, start, target, again, history, n)
         if solved.settled:
             history.notes.append(
                 f"solved in {n} sub-steps because one step did not settle: "
