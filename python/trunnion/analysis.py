@@ -9,9 +9,11 @@ from trunnion.arrays import F8, CaseResult, Loads, Results, System
 from trunnion.casetext import case_text, in_order
 from trunnion.combine import combine
 from trunnion.cycles import follow
+from trunnion.default_cases import with_cases
 from trunnion.loads import LoadSets, case_loads, case_warnings, load_sets
 from trunnion.model import Case, Comb, Model
 from trunnion.occasional import LockedPass
+from trunnion.snubbed import go_on, locked_at_rest
 from trunnion.solver.answer import Question, answer, forcing_of, refuse_mechanisms
 from trunnion.solver.friction import Solved
 from trunnion.solver.ledger import Ledger
@@ -33,7 +35,7 @@ class Start:
 
 
 def solve(model: Model, *, starts: Mapping[str, Start] | None = None) -> Results:
-    """Solve every case and combination of a model.
+    """Solve every case and combination of a model; one without cases takes default ones.
 
     Parameters
     ----------
@@ -47,7 +49,7 @@ def solve(model: Model, *, starts: Mapping[str, Start] | None = None) -> Results
         The structure is impossible, or moves freely even with every contact closed.
     """
     model.check()
-    return Run(model, starts or {}).results()
+    return Run(with_cases(model), starts or {}).results()
 
 
 def solve_system(
@@ -94,7 +96,7 @@ class Run:
                 self.found[case.name] = combine(case, self.found)
         inorder = {case.name: self.found[case.name] for case in self.model.cases}
         work = self.ledger.snapshot()
-        return Results(self.model.title, inorder, (), work, cycles, self.system)
+        return Results(self.model.title, inorder, (), work, cycles, base=self.system)
 
     def _keep(self, result: CaseResult) -> None:
         """Store an answer with the work done since the last; shared work stands on the first."""
@@ -122,9 +124,14 @@ class Run:
             case_warnings(self.sets, case),
         )
 
+    @staticmethod
+    def hot_set(case: Case) -> str:
+        """Temperature set of a case, "" where it has none."""
+        return next((t.name[1:] for t in case.terms if t.name[0] == "T"), "")
+
     def structure(self, case: Case) -> Structure:
         """Structure for a case: the modulus of its E=, snubbers engaged where it locks them."""
-        which = next((t.name[1:] for t in case.terms if t.name[0] == "T"), "") if case.hot else ""
+        which = self.hot_set(case) if case.hot else ""
         return self.structure_of(which, snubbed=case.snubbers == "LOCKED")
 
     def structure_of(self, which: str, *, snubbed: bool = False) -> Structure:
@@ -175,9 +182,23 @@ class Run:
                 cause=f"it starts from {case.start}, which has no answer",
             )
         origin = self.ended[case.start] if case.start else None
-        if origin is not None:
-            origin = replace(origin, point=origin.point.copy())
-        result, end = answer(structure, question, origin, prepared)
+        result, end = self.go_on(case, question, origin, prepared)
         if end is not None:
             self.ended[case.name] = end
         return result
+
+    def go_on(
+        self,
+        case: Case,
+        question: Question,
+        origin: Origin | None,
+        prepared: tuple[Point, Solved] | None = None,
+    ) -> tuple[CaseResult, Origin | None]:
+        """Solve one case from where another ended, or from rest."""
+        structure, locked = self.structure(case), case.snubbers == "LOCKED"
+        if origin is not None:
+            loads, origin = go_on(self.system, structure, origin, question.loads, locked=locked)
+            question = replace(question, loads=loads)
+        elif locked:
+            origin = locked_at_rest(structure)
+        return answer(structure, question, origin, prepared)

@@ -307,7 +307,7 @@ class CycleResult:
     cases: tuple[str, ...]
     loops: int
     repeats: bool
-    change: float  # largest change of a support load between the last two loops, relative
+    change: float  # of support loads and displacements between the last two loops, relative
     supports: F8 | None = None
     elements: F8 | None = None
     one_shot_supports: F8 | None = None
@@ -389,34 +389,6 @@ class CaseResult:
         return stresses(self)
 
 
-@dataclass(slots=True)
-class Results:
-    """All cases of one run, in the deck's order."""
-
-    title: str
-    cases: dict[str, CaseResult]
-    warnings: tuple[str, ...] = ()
-    work: dict[str, int] = field(default_factory=dict)
-    cycles: dict[str, CycleResult] = field(default_factory=dict)
-    base: System | None = None  # the system whose contacts have gaps; cases may have others
-
-    def __getitem__(self, name: str) -> CaseResult:
-        """Return the case called `name`."""
-        return self.cases[name]
-
-    @property
-    def system(self) -> System:
-        """The system that labels, elements and support cards of all cases are those of."""
-        return self.base or next(iter(self.cases.values())).system
-
-    @property
-    def envelope(self) -> "Table":
-        """Largest and smallest load of every support over all cases, and the cases' names."""
-        from trunnion.tables import envelope
-
-        return envelope(self)
-
-
 @dataclass(frozen=True, slots=True)
 class ModeSet:
     """Natural modes about a frozen contact state, in rising frequency, rigid ones first.
@@ -448,3 +420,39 @@ class ModeSet:
     last: I4
     proven: bool
     counted: float
+
+    @property
+    def table(self) -> "Table":
+        """Frequencies, participation and effective mass by number of the mode."""
+        from trunnion.tables import modes
+
+        return modes(self)
+
+
+@dataclass(slots=True)
+class Results:
+    """All cases of one run, in the deck's order."""
+
+    title: str
+    cases: dict[str, CaseResult]
+    warnings: tuple[str, ...] = ()
+    work: dict[str, int] = field(default_factory=dict)
+    cycles: dict[str, CycleResult] = field(default_factory=dict)
+    base: System | None = None  # the system whose contacts have gaps; cases may have others
+    modes: ModeSet | None = None  # where the deck asks for them
+
+    def __getitem__(self, name: str) -> CaseResult:
+        """Return the case called `name`."""
+        return self.cases[name]
+
+    @property
+    def system(self) -> System:
+        """The system that labels, elements and support cards of all cases are those of."""
+        return self.base or next(iter(self.cases.values())).system
+
+    @property
+    def envelope(self) -> "Table":
+        """Largest and smallest load of every support over all cases, and the cases' names."""
+        from trunnion.tables import envelope
+
+        return envelope(self)

@@ -11,14 +11,13 @@ import numpy as np
 
 from trunnion.arrays import F8, CaseResult, CycleResult
 from trunnion.model import Case, Cycle
-from trunnion.solver.answer import answer
 from trunnion.solver.steps import Origin
 from trunnion.supports import card_forces
 
 if TYPE_CHECKING:
     from trunnion.analysis import Run
 
-REPEATED = 1e-6  # change of support loads between two loops, of the largest
+REPEATED = 1e-6  # change of support loads and displacements between two loops, of the largest
 
 
 def follow(run: "Run", cycle: Cycle) -> CycleResult:
@@ -53,15 +52,25 @@ def follow(run: "Run", cycle: Cycle) -> CycleResult:
 def _one(
     run: "Run", case: Case, origin: Origin | None, name: str
 ) -> tuple[CaseResult, Origin | None]:
-    question = replace(run.question(case), name=name)
-    start = None if origin is None else replace(origin, point=origin.point.copy())
-    return answer(run.structure(case), question, start)
+    return run.go_on(case, replace(run.question(case), name=name), origin)
 
 
 def _change(before: list[CaseResult], after: list[CaseResult]) -> float:
-    old = np.stack([card_forces(c) for c in before])
-    new = np.stack([card_forces(c) for c in after])
-    size = max(1.0, float(np.abs(new).max(initial=0.0)))
+    """Largest change of a support load or of a displacement, each of the largest."""
+    loads = _relative(_loads(before), _loads(after), 1.0)
+    return max(loads, _relative(_moves(before), _moves(after), 1e-9))
+
+
+def _loads(steps: list[CaseResult]) -> F8:
+    return np.stack([card_forces(step) for step in steps])
+
+
+def _moves(steps: list[CaseResult]) -> F8:
+    return np.stack([step.state.u for step in steps if step.state is not None])
+
+
+def _relative(old: F8, new: F8, least: float) -> float:
+    size = max(least, float(np.abs(new).max(initial=0.0)))
     return float(np.abs(new - old).max(initial=0.0)) / size
 
 

@@ -6,10 +6,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from trunnion.arrays import CaseResult, Loads, State
+from trunnion.arrays import F8, CaseResult, FrozenBreak, Loads
 from trunnion.casetext import case_text
 from trunnion.combine import combine
 from trunnion.model import Case, Comb
+from trunnion.snubbed import go_on
 from trunnion.solver.answer import Question, answer, at_rest, forcing_of
 from trunnion.solver.linear import solve_linear
 from trunnion.solver.locked import frozen_breaks, frozen_system
@@ -21,7 +22,7 @@ from trunnion.solver.structure import Structure
 if TYPE_CHECKING:
     from trunnion.analysis import Run
 
-Key = tuple[str, bool]
+Key = tuple[str, str | None, bool]  # frozen case, modulus set (None: as it has), snubbers locked
 
 
 class LockedPass:
@@ -40,24 +41,40 @@ class LockedPass:
             elif case.nonlinear:
                 yield self._nonlinear(case, about)
             else:
-                groups.setdefault((about.name, case.about is not None), []).append(case)
+                key = (about.name, self._hot(case), _locks(case))
+                groups.setdefault(key, []).append(case)
         for key, group in groups.items():
             yield from self._group(key, group)
 
-    def structure(self, about: CaseResult, *, snubbers: bool) -> tuple[Structure, np.ndarray]:
-        """The structure frozen as `about` left it, and its contacts' numbers."""
-        parent = self._parent(about)
+    def structure(
+        self, about: CaseResult, *, snubbers: bool, which: str | None = None
+    ) -> tuple[Structure, np.ndarray]:
+        """The structure frozen as `about` left it, and its contacts' numbers.
+
+        `which` is the modulus set; None takes that of `about`.
+        """
+        own, snubbed = self._key(about)
+        parent = self.run.structure_of(own if which is None else which, snubbed=snubbed)
         assert about.state is not None
-        system, keep = frozen_system(about.system, about.state, snubbers=snubbers)
+        system, keep = frozen_system(parent.system, about.state, snubbers=snubbers)
         return Structure(system, self.run.ledger, parent, keep), keep
 
-    def _parent(self, about: CaseResult) -> Structure:
-        return next(s for s in self.run.structures.values() if s.system is about.system)
+    def _hot(self, case: Case) -> str | None:
+        """Modulus set that E=HOT of a locked case asks for: its own, else of the frozen case."""
+        if not case.hot:
+            return None
+        name = case.about or case.on
+        frozen = next(c for c in self.run.model.cases if isinstance(c, Case) and c.name == name)
+        return self.run.hot_set(case) or self.run.hot_set(frozen)
+
+    def _key(self, about: CaseResult) -> tuple[str, bool]:
+        """Modulus set of a solved case, and whether its snubbers were locked."""
+        return next(key for key, s in self.run.structures.items() if s.system is about.system)
 
     def _group(self, key: Key, cases: list[Case]) -> Iterator[CaseResult]:
-        name, increment = key
+        name, which, locks = key
         about = self.run.found[name]
-        structure, keep = self.structure(about, snubbers=increment)
+        structure, keep = self.structure(about, snubbers=locks, which=which)
         questions = [self._question(case, structure) for case in cases]
         forcings = [forcing_of(structure, question) for question in questions]
         prepared = solve_linear(structure, forcings)
@@ -70,13 +87,24 @@ class LockedPass:
                 yield from (self._refused(case, about, cause) for case in cases)
                 return
             structure.factorise(response.tangent, response.slider_tangent)
-        for question, ready in zip(questions, prepared, strict=True):
+        for case, question, ready in zip(cases, questions, prepared, strict=True):
             result, _ = answer(structure, question, at_rest(structure), ready)
-            if result.state is not None and about.state is not None and about.loads is not None:
-                result.frozen_check = frozen_breaks(
-                    about.system, about.state, about.loads, keep, result.state, increment=increment
-                )
+            if result.state is not None:
+                result.frozen_check = self._breaks(about, keep, case, result)
             yield result
+
+    def _breaks(
+        self, about: CaseResult, keep: np.ndarray, case: Case, result: CaseResult
+    ) -> tuple[FrozenBreak, ...]:
+        assert about.state is not None
+        assert about.loads is not None
+        assert result.state is not None
+        assert result.loads is not None
+        base = about.loads.base + result.loads.base
+        increment = case.about is not None
+        return frozen_breaks(
+            about.system, about.state, base, keep, result.state, increment=increment
+        )
 
     def _question(self, case: Case, structure: Structure) -> Question:
         """Loads of a locked case; movements and closed gaps of the frozen case stay out."""
@@ -99,63 +127,58 @@ class LockedPass:
     # ------------------------------------------------------------------ NONLINEAR
     def _nonlinear(self, case: Case, about: CaseResult) -> CaseResult:
         """Operating and occasional loads together, snubbers locked where they are, less OPE."""
-        assert about.state is not None
-        assert about.loads is not None
-        parent = self._parent(about)
-        which = next(key[0] for key, s in self.run.structures.items() if s is parent)
-        structure = self.run.structure_of(which, snubbed=True)
-        question = self.run.question(case)
-        loads = _together(about, question.loads)
+        own, snubbed = self._key(about)
+        if (self._hot(case) or own) != own:
+            return self._refused(case, about, f"E=HOT with NONLINEAR, but {about.name} is not hot")
+        locks = _locks(case)
+        if snubbed and not locks:
+            text = f"SNUBBERS=FREE with NONLINEAR, but {about.name} holds them"
+            return self._refused(case, about, text)
+        structure = self.run.structure_of(own, snubbed=locks)
+        question = self.run.question(case, structure.system)
         origin = self.run.ended[about.name]
-        start = Origin(
-            structure.forcing(_still_loads(about.loads, loads)), origin.point.copy(), origin.datum
-        )
+        assert origin.loads is not None
+        both = _together(origin.loads, origin.lock, question.loads)
+        loads, start = go_on(self.run.system, structure, origin, both, locked=locks)
         whole = replace(question, name=f"{about.name} + {case.name}", loads=loads)
         total, _ = answer(structure, whole, start)
         if total.state is None:
             return self._refused(case, about, total.cause or "")
-        before = _padded(about, total)
+        before = _padded(about, total, start)
         comb = Comb(case.name, ("-", ("case", total.name), ("case", before.name)), "")
         result = combine(comb, {total.name: total, before.name: before})
-        result.kind, result.text = "case", f"{case_text(case)} ABOUT={about.name} NONLINEAR"
+        result.text = f"{case_text(case)} ABOUT={about.name} NONLINEAR"
         result.warnings += total.warnings
         return result
 
 
-def _together(about: CaseResult, more: Loads) -> Loads:
-    """Loads of both; snubbers hold the pipe where the operating case left it."""
-    a = about.loads
-    assert a is not None
-    assert about.state is not None
-    base = a.base + more.base
-    u = about.state.u
-    snubbers = about.system.snubbers
-    for card, node, cnode in zip(snubbers.card, snubbers.node, snubbers.cnode, strict=True):
-        base[card] = u[node] - (u[cnode] if cnode >= 0 else 0.0)
+def _locks(case: Case) -> bool:
+    """Whether snubbers hold in a locked case: about another case, unless its card says else."""
+    return case.snubbers == "LOCKED" if case.snubbers else case.about is not None
+
+
+def _together(a: Loads, lock: F8 | None, more: Loads) -> Loads:
+    """Loads of both; where snubbers are locked is left to the start."""
     return Loads(
         dist=a.dist + more.dist,
         strain=a.strain + more.strain,
         curvature=a.curvature + more.curvature,
         nodal=a.nodal + more.nodal,
-        base=base,
+        base=a.base + more.base - (0.0 if lock is None else lock),
         preload=a.preload + more.preload,
         pressure=a.pressure + more.pressure,
         mux=a.mux,
     )
 
 
-def _still_loads(a: Loads, total: Loads) -> Loads:
-    """The operating loads with the snubbers' bases already where they lock."""
-    return replace(a, base=total.base)
-
-
-def _padded(about: CaseResult, total: CaseResult) -> CaseResult:
-    """The operating case on the system with engaged snubbers, which carry nothing."""
+def _padded(about: CaseResult, total: CaseResult, start: Origin) -> CaseResult:
+    """The operating case on the contacts of `total`: snubbers that lock in it carry nothing."""
     assert about.state is not None
-    more = len(total.system.contacts.k) - len(about.system.contacts.k)
-    state: State = replace(
+    more = len(total.system.contacts.k) - len(about.state.side)
+    state = replace(
         about.state,
         side=np.concatenate((about.state.side, np.zeros(more, np.int32))),
         reaction=np.concatenate((about.state.reaction, np.zeros((more, 3)))),
     )
-    return replace(about, system=total.system, state=state, penalty_u=None, penalty_r=None)
+    system, loads = total.system, start.loads
+    return replace(about, system=system, state=state, loads=loads, penalty_u=None, penalty_r=None)

@@ -145,7 +145,8 @@ def _solve(
     result.penalty_u, result.penalty_r = reported.penalty_u, reported.penalty_r
     result.penalty_effect = reported.penalty_effect
     result.warnings += tuple(history.notes) + _remarks(structure, reported)
-    return Origin(forcing, point, _all_sliders(structure, reported.state.datum_end))
+    datum = _all_sliders(structure, reported.state.datum_end)
+    return Origin(forcing, point, datum, question.loads, start.lock)
 
 
 def refusal(certificate: Certificate) -> str:

@@ -15,7 +15,6 @@ from trunnion.arrays import (
     OPEN,
     Contacts,
     FrozenBreak,
-    Loads,
     State,
     System,
     no_contacts,
@@ -31,7 +30,8 @@ def frozen_system(system: System, state: State, *, snubbers: bool) -> tuple[Syst
     """
     c, s = system.contacts, system.snubbers
     n = len(c.k)
-    closed = state.side != OPEN
+    free = [not snubbers and system.cards[i].kind == "snubber" for i in c.card]
+    closed = (state.side != OPEN) & ~np.array(free, np.bool_)
     radial = closed & (c.dim == 2) & ~c.two_way
     size = np.sqrt((state.reaction**2).sum(axis=1))
     normal = c.normal.copy()
@@ -78,14 +78,15 @@ def chosen(a: Contacts, keep: I4) -> Contacts:
 
 
 def frozen_breaks(
-    system: System, about: State, base: Loads, keep: I4, locked: State, *, increment: bool
+    system: System, about: State, base: F8, keep: I4, locked: State, *, increment: bool
 ) -> tuple[FrozenBreak, ...]:
     """What a locked case does to the assumption that the contact state stays.
 
     Parameters
     ----------
     system : the nonlinear system, whose contacts have gaps.
-    about, base : the case whose contact state was frozen, and its loads.
+    about : the case whose contact state was frozen.
+    base : (n_card, 6) movements of the supports' bases, of both cases together.
     keep : numbers of the locked case's contacts among those of `system`.
     increment : the locked case comes on top of `about`; otherwise it stands alone (ON=).
     """
@@ -106,7 +107,7 @@ def frozen_breaks(
                 found.append(FrozenBreak(card, word, "pulls", pull))
         elif increment:
             beyond = _beyond(c, base, int(i), u)
-            if beyond > 0.0:
+            if beyond > 1e-9 * float(np.abs(u).max()):
                 found.append(FrozenBreak(card, word, "closes", beyond))
     return tuple(found)
 
@@ -119,10 +120,10 @@ def _push(c: Contacts, about: State, i: int, force: F8) -> float:
     return float(-about.side[i] * (force @ c.normal[i, 0]))
 
 
-def _beyond(c: Contacts, base: Loads, i: int, u: F8) -> float:
+def _beyond(c: Contacts, base: F8, i: int, u: F8) -> float:
     """How far an open contact is moved beyond its gap."""
     part = slice(3, 6) if c.rotational[i] else slice(0, 3)
-    w = u[c.node[i], part] - base.base[c.card[i], part]
+    w = u[c.node[i], part] - base[c.card[i], part]
     if c.cnode[i] >= 0:
         w = w - u[c.cnode[i], part]
     d = c.normal[i] @ w

@@ -6,7 +6,7 @@ from functools import partial
 
 import numpy as np
 
-from trunnion.arrays import B1, F8
+from trunnion.arrays import B1, F8, Loads
 from trunnion.solver.friction import Solved, solve_step
 from trunnion.solver.history import History
 from trunnion.solver.status import release, solve_status
@@ -34,11 +34,16 @@ class Plan:
 
 @dataclass(slots=True)
 class Origin:
-    """Where a case starts: loads, displacements and committed data of the case FROM names."""
+    """Where a case starts: loads, displacements and committed data of the case FROM names.
+
+    lock : (n_card, 6) where snubbers locked, against their ground; None where they are free.
+    """
 
     forcing: Forcing
     point: Point
     datum: F8
+    loads: Loads | None = None
+    lock: F8 | None = None
 
 
 def solve_case(

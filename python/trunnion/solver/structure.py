@@ -160,12 +160,12 @@ class Structure:
         self.pattern, self.box = parent.pattern, parent.box
         self.ends, self.d, self.form = parent.ends, parent.d, parent.form
         self.k, self.pipe = parent.k, parent.pipe
-        self.parents = len(parent.system.contacts.node)
+        self.parent_rank = parent.rank[: len(parent.system.contacts.node)]
 
     def _supports(self) -> None:
         c, s = self.contacts, self.sliders
         p = self.pattern
-        rank = p.contact_rank if self.keep is None else self._kept_rank()
+        self.rank = rank = p.contact_rank if self.keep is None else self._kept_rank()
         offset = np.where(c.rotational, 3, 0)
         at = np.column_stack((c.node, c.cnode, rank, offset, c.dim, c.two_way))
         self.at = np.ascontiguousarray(at, np.int32)
@@ -180,8 +180,7 @@ class Structure:
         assert self.keep is not None
         if not len(self.keep):
             return np.zeros(1, np.int32)  # of the inert stand-in
-        parents = self.pattern.contact_rank[: self.parents]
-        return np.concatenate((parents, self.pattern.snubber_rank))[self.keep]
+        return np.concatenate((self.parent_rank, self.pattern.snubber_rank))[self.keep]
 
     def _linear(self) -> None:
         """Stiffness of everything that never changes; absent freedoms get a unit diagonal."""
