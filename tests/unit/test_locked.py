@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import trunnion
+from trunnion.arrays import SLIP
 from trunnion.certificate import certify
 from trunnion.deck.reader import read_text
 from trunnion.supports import card_forces
@@ -269,6 +270,13 @@ def test_total_on_a_frozen_state_asks_only_what_would_pull():
     assert broken(solve(text)["HSUS"]) == {}
 
 
+def test_total_that_would_pull_a_closed_support_is_named_with_the_whole_force():
+    text = arm("SUPPORT 20 +Y\nFORCE 20 F1 FY=700\nCASE OPE = W\nCASE HSUS = F1 ON=OPE\n")
+    pulls = 700 * tip(4.0) / (tip(4.0) + 1 / K)
+    found = broken(solve(text)["HSUS"])
+    assert found == {("20 +Y", "+Y", "pulls"): pytest.approx(pulls, rel=1e-9)}
+
+
 def test_frozen_state_that_moves_freely_is_refused_by_name():
     """Friction alone holds this line along X; it is left out of the locked pass."""
     text = HEAD + (
@@ -388,12 +396,37 @@ def test_about_a_case_with_locked_snubbers():
 def test_line_that_only_snubbers_hold():
     text = HEAD + (
         "PIPE 1 2 DX=5\nPIPE 2 3 DZ=5\nSNUBBER 1 X\nSNUBBER 1 Y\nSNUBBER 1 Z\n"
-        "SNUBBER 2 Y\nSNUBBER 2 Z\nSNUBBER 3 Y\n"
-        "CASE DYN = U(0,-1,0) SNUBBERS=LOCKED\nCASE UP = U(0,0.5,0) ABOUT=DYN\n"
+        "SNUBBER 2 Y\nSNUBBER 2 Z\nSNUBBER 3 Y\nSNUBBER 1 Z CNODE=3\n"
+        "CASE DYN = U(0,-1,-1) SNUBBERS=LOCKED\nCASE UP = U(0,0.5,0.5) ABOUT=DYN\n"
     )
     case = solve(text)
     assert card_forces(case["DYN"])[:, 1].sum() == pytest.approx(10 * WEIGHT, rel=1e-9)
     assert card_forces(case["UP"]) == pytest.approx(-0.5 * card_forces(case["DYN"]), rel=1e-6)
+
+
+@pytest.mark.parametrize("word", ["SNUBBERS=LOCKED", "SNUBBERS=FREE"])
+def test_the_same_loads_again_in_steps_move_nothing(word):
+    """Where a case starts its loads are those the case before ended with, snubbers and all."""
+    loads = "CASE DYN = W + P1 + T1 + F1 FROM=OPE SNUBBERS=LOCKED\n"
+    again = "CASE AGAIN = W + P1 + T1 + F1 FROM=DYN STEPS=4 SNUBBERS=LOCKED\n"
+    text = LINE + SNUBBED["added"] + "FORCE 40 F1 FX=5000\n" + loads + again
+    case = solve(text.replace("SNUBBERS=LOCKED", word))
+    assert np.any(case["DYN"].state.mode == SLIP)
+    assert case["AGAIN"].state.u == pytest.approx(case["DYN"].state.u, rel=0, abs=1e-12)
+
+
+def test_snubber_between_two_pipes_locks_where_both_are():
+    text = (
+        arm("", 4.0)
+        + "NODE 50 X=0 Z=1\nANCHOR 50\nPIPE 50 60 DX=4 T1=400\n"
+        + "SNUBBER 20 X CNODE=60\nFORCE 20 F1 FX=1000\n"
+        + "CASE OPE = T1\nCASE SLUG = F1 ABOUT=OPE\nCASE SLUGN = F1 ABOUT=OPE NONLINEAR\n"
+    )
+    case = solve(text)
+    assert u(case["OPE"], "60")[0] - u(case["OPE"], "20")[0] > 0.01
+    held = force(case["SLUG"], "20 SNUBBER X")[0]
+    assert held == pytest.approx(-500, rel=1e-2)
+    assert force(case["SLUGN"], "20 SNUBBER X")[0] == pytest.approx(held, rel=1e-6)
 
 
 # ---------------------------------------------------------------------- modulus
