@@ -389,6 +389,46 @@ class CaseResult:
         return stresses(self)
 
 
+@dataclass(frozen=True, slots=True)
+class ModeSet:
+    """Natural modes about a frozen contact state, in rising frequency, rigid ones first.
+
+    system : the system they belong to; extra nodes follow those of the model.
+    frequency : (m,) [Hz]; 0 for rigid modes.
+    shape, shape_low : (m, n_node, 6) mass-normalised; displacements are the unevaluated sum.
+    participation : (m, 3) factors for X Y Z [kg^0.5].
+    effective_mass : (m, 3) their squares [kg].
+    total_mass : (3,) of the system, held masses included [kg].
+    residual : (m,) |K x - w2 M x| / |w2 M x|, of rigid modes to the lowest w2 above zero.
+    rigid : number of rigid modes.
+    added : number of extra nodes.
+    part_of, last : elements of the model, see `solver.mesh.Mesh`.
+    proven : a Sturm count shows that no mode below `counted` [Hz] is missing.
+    """
+
+    system: System
+    frequency: F8
+    shape: F8
+    shape_low: F8
+    participation: F8
+    effective_mass: F8
+    total_mass: F8
+    residual: F8
+    rigid: int
+    added: int
+    part_of: I4
+    last: I4
+    proven: bool
+    counted: float
+
+    @property
+    def table(self) -> "Table":
+        """Frequencies, participation and effective mass by number of the mode."""
+        from trunnion.tables import modes
+
+        return modes(self)
+
+
 @dataclass(slots=True)
 class Results:
     """All cases of one run, in the deck's order."""
@@ -399,6 +439,7 @@ class Results:
     work: dict[str, int] = field(default_factory=dict)
     cycles: dict[str, CycleResult] = field(default_factory=dict)
     base: System | None = None  # the system whose contacts have gaps; cases may have others
+    modes: ModeSet | None = None  # where the deck asks for them
 
     def __getitem__(self, name: str) -> CaseResult:
         """Return the case called `name`."""

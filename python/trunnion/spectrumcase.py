@@ -1,151 +1,157 @@
 """Response spectrum cases: from modes and shocks to displacements, forces and support loads."""
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
-from typing import Protocol
+from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
-from trunnion.arrays import BOTH, F8, CaseResult, Certificate, Loads, State, System, sizes
-from trunnion.balance import local_forces
+from trunnion.arrays import (
+    B1,
+    BOTH,
+    F8,
+    CaseResult,
+    Certificate,
+    Item,
+    Loads,
+    ModeSet,
+    State,
+    System,
+    sizes,
+)
 from trunnion.errors import ModelError, Problem
-from trunnion.model import Case, Group, Shock, Spectrum, SpectrumUse
+from trunnion.model import Case, Group, Model, Shock, SpectrumUse
+from trunnion.solver.pencil import Pencil
 from trunnion.solver.spectrum import Drive, amplitudes, combine, missed, zero_period
-from trunnion.solver.structure import Point, Sliding, Structure
-from trunnion.supports import contact_sums
+from trunnion.solver.structure import Structure
+from trunnion.solver.supportmotion import (
+    Answers,
+    hold,
+    influence,
+    moving,
+    participation,
+    recover,
+)
 
 AXES = {"X": 0, "Y": 1, "Z": 2}
-
-# What a shock's inertia does statically: displacements (n_node, 6) under M r for given r.
-Rigid = Callable[[F8], F8]
-
-
-class Modal(Protocol):
-    """Modes as a spectrum takes them: mass-normalised, of a held structure.
-
-    frequency : (m,) [Hz]; shape : (m, n_node, 6); participation : (m, 3) phi . M r [kg^0.5].
-    """
-
-    frequency: F8
-    shape: F8
-    participation: F8
+NAMES = ("u", "end_force", "local_force", "reaction", "card_force")
+RESIDUAL = 1e-9  # of a mode whose forces may be reported
 
 
 @dataclass(frozen=True, slots=True)
-class Answers:
-    """Responses to several displacements at once, item first.
+class Push:
+    """A shock with its participation (m,) and the supports that it moves; None: all."""
 
-    u : (m, n_node, 6).  end_force, local_force : (m, n_elem, 2, 6).  reaction : (m, n_contact, 3).
-    card_force : (m, n_card, 6).
+    shock: Shock
+    participation: F8
+    moves: B1 | None
+
+
+@dataclass
+class SpectrumPass:
+    """The response spectrum cases of a run: they share modes, and the forces of their shapes.
+
+    system : the frozen system of the model, without the extra nodes of the modes.
+    pencil : stiffness and mass of the modes' own system.
     """
 
-    u: F8
-    end_force: F8
-    local_force: F8
-    reaction: F8
-    card_force: F8
+    model: Model
+    system: System
+    modes: ModeSet
+    pencil: Pencil
+
+    @property
+    def structure(self) -> Structure:
+        """The structure of the modes."""
+        return self.pencil.structure
+
+    @cached_property
+    def shapes(self) -> Answers:
+        """Forces of the mass-normalised shapes."""
+        m = self.modes
+        return recover(self.structure, m, self.system, m.shape, m.shape_low)
+
+    def solve(self, case: Case) -> CaseResult:
+        """Solve one response spectrum case.
+
+        Raises
+        ------
+        ModelError
+            The structure is not held, or a group names a node without support.
+        """
+        use = case.spectrum
+        if use is None:
+            raise ValueError(f"{case.name} is no response spectrum case")
+        if not (self.modes.frequency > 0.0).all():
+            text = f"CASE {case.name}: a spectrum needs a held structure, this one moves freely"
+            raise ModelError([Problem(case.place, text)])
+        pushes = [self._push(case, shock) for shock in use.shocks]
+        left = self._left_out(use, pushes) if use.missing_mass else None
+        found = {name: self._largest(name, use, pushes, left) for name in NAMES}
+        certificate = mode_certificate(self.modes)
+        return CaseResult(
+            name=case.name,
+            kind="spectrum",
+            text=spectrum_text(use),
+            system=self.system,
+            loads=_no_loads(self.system),
+            state=_state(self.system, found) if certificate.passed else None,
+            converged=certificate.passed,
+            cause=None if certificate.passed else f"{certificate.where} is not accurate",
+            certificate=certificate,
+            warnings=_warnings(self.modes),
+            linear=False,
+            gathered=sizes(found["card_force"], found["local_force"]),
+        )
+
+    def _push(self, case: Case, shock: Shock) -> Push:
+        """Participation of one shock."""
+        axis = AXES[shock.direction]
+        if shock.group is None:
+            return Push(shock, self.modes.participation[:, axis], None)
+        group = next((g for g in self.model.groups if g.name == shock.group), None)
+        if group is None:
+            text = f"CASE {case.name}: group {shock.group} is not defined"
+            raise ModelError([Problem(case.place, text)])
+        moves = moving(self.system, _supported(group, self.system))
+        gamma = participation(moves, axis, self.modes.frequency, self.shapes.reaction)
+        return Push(shock, gamma, moves)
+
+    def _left_out(self, use: SpectrumUse, pushes: list[Push]) -> Answers:
+        """What each shock does to the mass that the modes leave out; an item a shock."""
+        u = []
+        for push in pushes:
+            shock, modes = push.shock, self.modes
+            r = influence(self.structure, push.moves, AXES[shock.direction])
+            hold(self.structure)
+            rigid = self.structure.solve(self.pencil.mass_product(r.reshape(1, -1))).ravel()
+            flat = modes.shape.reshape(len(modes.shape), -1)
+            zpa = zero_period(shock, self.model.spectra[shock.spectrum], use.zpa)
+            part = missed(rigid, flat, modes.frequency, push.participation, zpa)
+            u.append(part.reshape(-1, 6))
+        every = np.array(u)
+        return recover(self.structure, self.modes, self.system, every, np.zeros_like(every))
+
+    def _largest(self, name: str, use: SpectrumUse, pushes: list[Push], left: Answers | None) -> F8:
+        """Combine one kind of answer over all shocks."""
+        modal: F8 = getattr(self.shapes, name)
+        frequency, drives = self.modes.frequency, []
+        for i, push in enumerate(pushes):
+            spectrum = self.model.spectra[push.shock.spectrum]
+            amplitude = amplitudes(spectrum, push.shock.factor, frequency, push.participation)
+            rest = None if left is None else getattr(left, name)[i].ravel()
+            drives.append(Drive(push.shock.direction, amplitude, rest))
+        flat = modal.reshape(len(modal), -1)
+        return combine(flat, frequency, drives, use).reshape(modal.shape[1:])
 
 
-NAMES = ("u", "end_force", "local_force", "reaction", "card_force")
-
-
-def spectrum_case(
-    case: Case,
-    structure: Structure,
-    modes: Modal,
-    spectra: dict[str, Spectrum],
-    groups: Sequence[Group] = (),
-    rigid: Rigid | None = None,
-    certificate: Certificate | None = None,
-) -> CaseResult:
-    """Solve one response spectrum case.
-
-    Parameters
-    ----------
-    structure : the frozen structure that the modes belong to.
-    rigid : static displacements under the inertia M r of unit acceleration; needed for the
-        missing mass.
-    certificate : of the modes; the case inherits it.
-
-    Raises
-    ------
-    ModelError
-        The structure is not held, or a group names a node without support.
-    """
-    use = case.spectrum
-    if use is None:
-        raise ValueError(f"{case.name} is no response spectrum case")
-    if not (modes.frequency > 0.0).all():
-        text = f"CASE {case.name}: the structure moves freely (modes of 0 Hz), a spectrum needs"
-        raise ModelError([Problem(case.place, f"{text} it held")])
-    shapes = recover(structure, modes.shape)
-    pushed = [_participation(case, s, structure.system, modes, shapes, groups) for s in use.shocks]
-    left = _left_out(structure, modes, shapes, use, spectra, pushed, rigid)
-    found = {name: _largest(name, modes, shapes, use, spectra, pushed, left) for name in NAMES}
-    system = structure.system
-    return CaseResult(
-        name=case.name,
-        kind="spectrum",
-        text=spectrum_text(use),
-        system=system,
-        loads=_no_loads(system),
-        state=_state(system, found),
-        converged=True,
-        certificate=certificate and replace(certificate, inherited=True),
-        linear=False,
-        gathered=sizes(found["card_force"], found["local_force"]),
-    )
-
-
-def recover(structure: Structure, shapes: F8) -> Answers:
-    """End forces and support forces of displaced shapes (m, n_node, 6), without loads."""
-    n, s = len(structure.sliders.mu), structure.system
-    law = Sliding(np.zeros(n), structure.sliders.kf, np.zeros(n), np.zeros((n, 3)))
-    ends, reactions = [], []
-    for shape in shapes:
-        point = Point(np.ascontiguousarray(shape), np.zeros_like(shape))
-        _, end, response = structure.residual(point, law, structure.still)
-        ends.append(end)
-        reactions.append(response.reaction[: len(s.contacts.k)])
-    m = len(shapes)
-    end_force = np.array(ends).reshape(m, -1, 2, 6)
-    reaction = np.array(reactions).reshape(m, -1, 3)
-    return Answers(
-        u=shapes,
-        end_force=end_force,
-        local_force=np.array([local_forces(s, f) for f in end_force]).reshape(end_force.shape),
-        reaction=reaction,
-        card_force=np.array([contact_sums(s, r) for r in reaction]).reshape(m, -1, 6),
-    )
-
-
-def group_participation(
-    system: System, nodes: set[int], direction: int, frequency: F8, reaction: F8
-) -> F8:
-    """(m,) participation of the supports at some nodes that move together [kg^0.5].
-
-    With r the static displacements for a unit movement of those supports, K r is the sum of
-    their k n (n . d), so that phi . M r = phi . K r / omega^2 is minus the force of the supports
-    on the shape along the movement, over omega^2.
-    """
-    c = system.contacts
-    moves = np.isin(c.node, sorted(nodes)) & (c.cnode < 0) & ~c.rotational
-    found: F8 = -reaction[:, moves, direction].sum(axis=1) / (2.0 * np.pi * frequency) ** 2
-    return found
-
-
-def group_influence(structure: Structure, nodes: set[int], direction: int) -> F8:
-    """(n_node, 6) static displacements for a unit movement of the supports at some nodes."""
-    c, s = structure.contacts, structure.system
-    moves = np.isin(c.node, sorted(nodes)) & (c.cnode < 0) & ~c.rotational
-    base = np.zeros((len(c.node), 3))
-    base[moves, direction] = 1.0
-    n = len(structure.sliders.mu)
-    law = Sliding(np.zeros(n), structure.sliders.kf, np.zeros(n), np.zeros((n, 3)))
-    forcing = replace(structure.still, base=base)
-    r, _, response = structure.residual(Point.zero(len(s.labels)), law, forcing)
-    structure.factorise(response.tangent, response.slider_tangent)
-    return structure.solve(r)
+def mode_certificate(modes: ModeSet) -> Certificate:
+    """How well the worst mode satisfies its equation."""
+    if not len(modes.residual):
+        return Certificate(True, 0.0, "no modes", (), inherited=True)
+    i = int(np.argmax(modes.residual))
+    worst, where = float(modes.residual[i]), f"mode {i + 1} at {modes.frequency[i]:.4g} Hz"
+    item = Item("mode", worst, where)
+    return Certificate(worst <= RESIDUAL, worst, where, (item,), inherited=True)
 
 
 def spectrum_text(use: SpectrumUse) -> str:
@@ -160,26 +166,6 @@ def _shock_text(shock: Shock) -> str:
     return f"SPECTRUM({','.join([*words, *filter(None, [shock.group])])})"
 
 
-def _participation(
-    case: Case,
-    shock: Shock,
-    system: System,
-    modes: Modal,
-    shapes: Answers,
-    groups: Sequence[Group],
-) -> tuple[F8, set[int] | None]:
-    """Participation of one shock, and the nodes of its group; None for uniform motion."""
-    axis = AXES[shock.direction]
-    if shock.group is None:
-        return modes.participation[:, axis], None
-    group = next((g for g in groups if g.name == shock.group), None)
-    if group is None:
-        text = f"CASE {case.name}: group {shock.group} is not defined"
-        raise ModelError([Problem(case.place, text)])
-    nodes = _supported(group, system)
-    return group_participation(system, nodes, axis, modes.frequency, shapes.reaction), nodes
-
-
 def _supported(group: Group, system: System) -> set[int]:
     """Node numbers of a group; every one must have a support on ground."""
     index = {label: i for i, label in enumerate(system.labels)} | system.alias
@@ -191,58 +177,10 @@ def _supported(group: Group, system: System) -> set[int]:
     return {index[node] for node in group.nodes}
 
 
-def _left_out(
-    structure: Structure,
-    modes: Modal,
-    shapes: Answers,
-    use: SpectrumUse,
-    spectra: dict[str, Spectrum],
-    pushed: list[tuple[F8, set[int] | None]],
-    rigid: Rigid | None,
-) -> Answers | None:
-    """What each shock does to the mass that the modes leave out; an item a shock."""
-    if not use.missing_mass:
-        return None
-    if rigid is None:
-        raise ValueError("the missing mass needs the static response to inertia")
-    moves = []
-    for shock, (gamma, nodes) in zip(use.shocks, pushed, strict=True):
-        axis = AXES[shock.direction]
-        if nodes is None:
-            influence = np.zeros((structure.n_node, 6))
-            influence[:, axis] = 1.0
-        else:
-            influence = group_influence(structure, nodes, axis)
-        zpa = zero_period(shock, spectra[shock.spectrum], use.zpa)
-        flat = shapes.u.reshape(len(gamma), -1)
-        part = missed(rigid(influence).ravel(), flat, modes.frequency, gamma, zpa)
-        moves.append(part.reshape(-1, 6))
-    return recover(structure, np.array(moves))
-
-
-def _largest(
-    name: str,
-    modes: Modal,
-    shapes: Answers,
-    use: SpectrumUse,
-    spectra: dict[str, Spectrum],
-    pushed: list[tuple[F8, set[int] | None]],
-    left: Answers | None,
-) -> F8:
-    """Combine one kind of answer over all shocks."""
-    modal = getattr(shapes, name)
-    drives = []
-    for i, (shock, (gamma, _)) in enumerate(zip(use.shocks, pushed, strict=True)):
-        spectrum = spectra[shock.spectrum]
-        drives.append(
-            Drive(
-                shock.direction,
-                amplitudes(spectrum, shock.factor, modes.frequency, gamma),
-                None if left is None else getattr(left, name)[i].ravel(),
-            )
-        )
-    found = combine(modal.reshape(len(modal), -1), modes.frequency, drives, use)
-    return found.reshape(modal.shape[1:])
+def _warnings(modes: ModeSet) -> tuple[str, ...]:
+    if modes.proven:
+        return ()
+    return ("the count of modes is not proven: some may be missing from the combination",)
 
 
 def _state(system: System, found: dict[str, F8]) -> State:

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trunnion.arrays import (
+    B1,
     ENGAGED,
     F8,
     I4,
@@ -158,11 +159,20 @@ def card_nodes(system: System) -> list[int]:
     return [number[card.label] for card in system.cards]
 
 
+def without_sign(case: CaseResult) -> B1:
+    """(n_card, 6) where a load is a size: the same on the pipe and on the restraint."""
+    found = gathered(case)
+    if found.card_load is None:
+        return np.zeros(found.card_force.shape, np.bool_)
+    alike: B1 = (found.card_load == found.card_force) & (found.card_force != 0.0)
+    return alike
+
+
 @dataclass(frozen=True, slots=True)
 class Envelope:
     """Extremes over cases, each (n_card, 6), on the pipe; the cases as numbers.
 
-    The number is -1 where no case has a load worth naming.
+    The number is -1 where no case has a load worth naming.  A size acts both ways.
     """
 
     highest: F8
@@ -173,14 +183,16 @@ class Envelope:
 
 def envelope(cases: Sequence[CaseResult]) -> Envelope:
     """Find the largest and the smallest of each component of every support's load."""
-    force = np.stack([card_forces(case) for case in cases])
+    force, sizes = np.stack([card_forces(c) for c in cases]), [without_sign(c) for c in cases]
+    both = np.stack(sizes)
     size = np.abs(force).max(axis=0)
     halves = [size[:, :3].max(initial=0.0), size[:, 3:].max(initial=0.0)]
     nothing = size <= 1e-9 * np.repeat(halves, 3)
-    high, low = force.argmax(axis=0), force.argmin(axis=0)
+    upper, lower = np.where(both, np.abs(force), force), np.where(both, -np.abs(force), force)
+    high, low = upper.argmax(axis=0), lower.argmin(axis=0)
     return Envelope(
-        np.take_along_axis(force, high[None], axis=0)[0],
-        np.take_along_axis(force, low[None], axis=0)[0],
+        np.take_along_axis(upper, high[None], axis=0)[0],
+        np.take_along_axis(lower, low[None], axis=0)[0],
         np.where(nothing, -1, high).astype(np.int32),
         np.where(nothing, -1, low).astype(np.int32),
     )

@@ -10,7 +10,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from trunnion.arrays import F8, Card, CaseResult, CycleResult, Part, Results, System
+from trunnion.arrays import F8, Card, CaseResult, CycleResult, ModeSet, Part, Results, System
 from trunnion.balance import local_end_forces
 from trunnion.interior import mid_of_bend
 from trunnion.names import UnknownName
@@ -211,6 +211,38 @@ def _ranges(
 
 def _index(labels: Sequence[str]) -> dict[str, int]:
     return {label: i for i, label in enumerate(labels)}
+
+
+def modes(found: ModeSet) -> Table:
+    """Natural modes by number: frequency, participation, effective mass also in percent."""
+    labels = tuple(str(i + 1) for i in range(len(found.frequency)))
+    kinds = (("participation", "kg^0.5"), ("mass", "kg"), ("percent", "%"))
+    columns = ("frequency", "period", *(f"{kind}_{c}" for kind, _ in kinds for c in "xyz"))
+    units = ("Hz", "s", *(unit for _, unit in kinds for _ in "xyz"), "")
+    parts = (
+        found.frequency,
+        period_of(found),
+        found.participation,
+        found.effective_mass,
+        mass_percent(found),
+        found.residual,
+    )
+    values = np.column_stack(parts)
+    return Table(labels, (*columns, "residual"), units, values, {}, _index(labels))
+
+
+def period_of(found: ModeSet) -> F8:
+    """(m,) periods [s]; NaN for rigid modes."""
+    f = found.frequency
+    period: F8 = np.divide(1.0, f, out=np.full(len(f), np.nan), where=f > 0.0)
+    return period
+
+
+def mass_percent(found: ModeSet) -> F8:
+    """(m, 3) effective mass in percent of the total mass."""
+    total = np.where(found.total_mass > 0.0, found.total_mass, np.inf)
+    share: F8 = 100.0 * found.effective_mass / total
+    return share
 
 
 def _card_index(cards: Sequence[Card]) -> dict[str, int]:

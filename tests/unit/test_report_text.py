@@ -41,8 +41,10 @@ def test_loads_on_restraints_have_the_trades_sign(report):
     assert heading in report
     block = report[report.index("\n  30 +Y GUIDE   line 10") :]
     assert row(block, "OPE")[:5] == ["OPE", "slip", "0.000", "-9.000", "2.700"]
-    assert row(block, "MAX")[:4] == ["MAX", "0.000", "-18.000", "5.400"]
-    assert block.splitlines()[5].split() == ["-", "TWO", "TWO", "-", "-", "-"]
+    assert row(block, "MAX")[:4] == ["MAX", "0.000", "-9.000", "5.400"]
+    assert block.splitlines()[5].split() == ["-", "OPE", "TWO", "-", "-", "-"]
+    assert row(block, "MIN")[:4] == ["MIN", "0.000", "-18.000", "2.700"]
+    assert block.splitlines()[7].split() == ["-", "TWO", "OPE", "-", "-", "-"]
 
 
 def test_displacements_are_in_mm_and_degrees(report):

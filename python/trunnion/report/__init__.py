@@ -20,7 +20,7 @@ def write_reports(
     try:
         files = {
             folder / f"{stem}.out": text_report(results, model),
-            folder / f"{stem}.json": json_report(results),
+            folder / f"{stem}.json": json_report(results, model),
         }
         if h5:
             from trunnion.report.hdf5 import hdf5_report

@@ -6,8 +6,10 @@ from itertools import groupby
 import numpy as np
 
 from trunnion.arrays import ARC, System
+from trunnion.default_cases import with_cases
 from trunnion.model import Case, Comb, Model
-from trunnion.report.columns import Column, integers, numbers, plain, section, table, words
+from trunnion.report.columns import Column, integers, numbers, plain, section, table, words, wrapped
+from trunnion.report.dynamics import cycle_text, dynamic_echo, spectrum_options
 from trunnion.report.props import support_echo
 from trunnion.report.units import ReportUnits
 from trunnion.report.winds import wind_echo
@@ -27,6 +29,7 @@ def input_echo(model: Model, system: System, texts: Mapping[str, str], units: Re
             _operations(model, units),
             _loads(model, units),
             wind_echo(model, system, units),
+            dynamic_echo(model, units),
             _cases(model, texts),
         )
     )
@@ -242,16 +245,20 @@ def _six(kind: str, values: Sequence[Sequence[float]], units: ReportUnits) -> li
 
 
 def _cases(model: Model, texts: Mapping[str, str]) -> str:
-    """Write every case as its card does."""
-    text = section("LOAD CASES")
-    width = max((len(case.name) for case in model.cases), default=0) + 2
-    for case in model.cases:
-        words = "  ".join([texts.get(case.name, ""), *_options(case)])
-        text += f"  {case.name:<{width}}{words}\n"
+    """Write every case as its card does; those of a deck that names none are marked."""
+    text = section("LOAD CASES", "" if model.cases else "default: the deck names none")
+    cases = with_cases(model).cases
+    width = max(len(case.name) for case in cases) + 2
+    for case in cases:
+        words = "  ".join([texts.get(case.name, ""), *_options(case, model.settings.g)])
+        text += wrapped(f"{case.name:<{width}}{words}")
+    if model.cycles:
+        text += section("CYCLES")
+        text += "".join(wrapped(f"{c.name} = {cycle_text(c)}") for c in model.cycles)
     return text
 
 
-def _options(case: Case | Comb) -> list[str]:
+def _options(case: Case | Comb, g: float) -> list[str]:
     """Keys of a CASE card that say more than nothing."""
     if isinstance(case, Comb):
         return []
@@ -264,4 +271,5 @@ def _options(case: Case | Comb) -> list[str]:
         "" if case.events is None else f"EVENTS={'ON' if case.events else 'OFF'}",
         f"SNUBBERS={case.snubbers}" if case.snubbers else "",
     )
-    return [option for option in options if option]
+    more = spectrum_options(case.spectrum, g) if case.spectrum else ()
+    return [*filter(None, options), *more]

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from trunnion.arrays import CaseResult, CycleResult, Results, System
+from trunnion.arrays import CaseResult, CycleResult, ModeSet, Results, System
 from trunnion.balance import local_end_forces
 from trunnion.report.loops import step_names
 from trunnion.stresses import end_stresses
@@ -50,6 +50,8 @@ def hdf5_report(results: Results) -> bytes:
         cycles = file.create_group("cycles")
         for name, cycle in results.cycles.items():
             _cycle(cycles.create_group(name), cycle)
+        if results.modes is not None:
+            _modes(file.create_group("modes"), results.modes)
     return stream.getvalue()
 
 
@@ -189,3 +191,13 @@ def _cycle(group: "h5py.Group", cycle: CycleResult) -> None:
     _words(group, "step", step_names(cycle))
     if cycle.path:
         group["path"] = np.stack([card_forces(step) for step in cycle.path])
+
+
+def _modes(group: "h5py.Group", modes: ModeSet) -> None:
+    """Natural modes; nodes added between those of the model follow them."""
+    _words(group, "node", modes.system.labels)
+    group["shape"] = modes.shape + modes.shape_low
+    for name in ("frequency", "participation", "effective_mass", "total_mass", "residual"):
+        group[name] = getattr(modes, name)
+    for name in ("rigid", "added", "proven", "counted"):
+        group.attrs[name] = getattr(modes, name)

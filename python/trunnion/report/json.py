@@ -11,9 +11,12 @@ import numpy as np
 from trunnion.arrays import F8, CaseResult, Certificate, Results, System
 from trunnion.balance import load_sum, local_end_forces, reaction_sum
 from trunnion.interior import mid_of_bend
+from trunnion.model import Model
 from trunnion.report.encode import dump, finite, lines, listing, records, rows, short, words
+from trunnion.report.json_modes import mode_entries
 from trunnion.report.json_runs import cycle_entries, envelope_entries, frozen_entries
 from trunnion.report.json_supports import support_entries
+from trunnion.report.json_winds import wind_entries
 from trunnion.stresses import end_stresses
 from trunnion.supports import cause_of, is_good, solved
 from trunnion.tables import element_ids
@@ -24,8 +27,8 @@ STRESSES = (
 )  # fmt: skip
 
 
-def json_report(results: Results) -> bytes:
-    """Write the whole file: schema, cases, warnings, work."""
+def json_report(results: Results, model: Model | None = None) -> bytes:
+    """Write the whole file: schema, cases, warnings, work; with its model the winds, too."""
     parts = {
         "schema": "1",
         "title": dump(results.title),
@@ -34,6 +37,10 @@ def json_report(results: Results) -> bytes:
     }
     if results.cycles:
         parts["cycles"] = cycle_entries(results)
+    if model is not None and model.winds:
+        parts["winds"] = wind_entries(model, results.system)
+    if results.modes is not None:
+        parts["modes"] = mode_entries(results.modes, results.system)
     parts["warnings"] = dump(list(results.warnings))
     parts["work"] = dump(results.work)
     return (lines(parts) + "\n").encode()

@@ -23,6 +23,9 @@ def support_echo(model: Model, system: System, units: ReportUnits) -> str:
     text += _directions(system, units)
     if kinds["spring"]:
         text += section("SPRINGS TO GROUND", "in their own axes") + _springs(kinds["spring"], units)
+    if len(system.snubbers.k):
+        text += section("SNUBBERS", "free but in cases with ABOUT and in modes; - K: rigid")
+        text += _snubbers(system, units)
     if hangers := [s for s in model.supports if s.kind == "hanger"]:
         text += section("SPRING HANGERS") + _hangers(hangers, units)
     return text
@@ -101,6 +104,22 @@ def _hangers(cards: Sequence[Support], units: ReportUnits) -> str:
         numbers("COLD LOAD", [s.load for s in cards], units.force, 12),
         integers("LINE", [s.place.line for s in cards]),
         words("  NAME", [f"  {s.name or ''}" for s in cards]),
+    ]
+    return table(columns)
+
+
+def _snubbers(system: System, units: ReportUnits) -> str:
+    found = system.snubbers
+    cards = [system.cards[i] for i in found.card.tolist()]
+    k = np.where(found.penalty, np.nan, found.k)
+    columns = [
+        words("NODE", [card.label for card in cards]),
+        words("WORD", found.word),
+        words("CNODE", [card.cnode for card in cards]),
+        *(plain(f"n{'xyz'[i]}", found.normal[:, 0, i], 4, 9) for i in range(3)),
+        _given("K", k.tolist(), units.stiffness, 14),
+        integers("LINE", [card.line for card in cards]),
+        words("  NAME", [f"  {_own_name(card)}" for card in cards]),
     ]
     return table(columns)
 

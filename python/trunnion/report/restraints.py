@@ -5,16 +5,16 @@ from collections.abc import Sequence
 import numpy as np
 
 from trunnion.arrays import F8, CaseResult
-from trunnion.report.columns import Column, headings, numbers, plain, section, table, words
+from trunnion.report.columns import Column, headings, numbers, plain, section, table, words, wrapped
 from trunnion.report.units import ReportUnits
-from trunnion.supports import card_loads, card_nodes, card_states, solved
+from trunnion.supports import card_loads, card_nodes, card_states, envelope, solved, without_sign
 
 NOTE = "forces and moments ON THE RESTRAINT, global; movements of the pipe at the node"
 COMPONENTS = ("FX", "FY", "FZ", "MX", "MY", "MZ")
 
 
 def restraint_summary(cases: Sequence[CaseResult], units: ReportUnits) -> str:
-    """Print a block for every support: one row a case, then the largest of each component."""
+    """Print a block for every support: one row a case, then the envelope with its cases."""
     if not cases or not cases[0].system.cards:
         return "\n  none\n"
     system = cases[0].system
@@ -22,8 +22,17 @@ def restraint_summary(cases: Sequence[CaseResult], units: ReportUnits) -> str:
     node = card_nodes(system)
     move = np.stack([solved(case).u[node, :3] for case in cases], axis=1)
     text = section("LARGEST OF ALL") + _largest_of_all(cases, force, units)
-    text += section("EVERY RESTRAINT", NOTE) + _blocks(cases, force, move, units)
+    text += section("EVERY RESTRAINT", NOTE) + _signless(cases)
+    text += _blocks(cases, force, move, units)
     return text + _hangers(cases, force, move, units)
+
+
+def _signless(cases: Sequence[CaseResult]) -> str:
+    """Name the cases whose numbers are sizes."""
+    names = [case.name for case in cases if without_sign(case).any()]
+    if not names:
+        return ""
+    return wrapped(f"sizes without sign, which MAX and MIN count both ways: {', '.join(names)}")
 
 
 def _quantities(force: F8, move: F8, units: ReportUnits) -> list[Column]:
@@ -38,18 +47,21 @@ def _quantities(force: F8, move: F8, units: ReportUnits) -> list[Column]:
 
 def _blocks(cases: Sequence[CaseResult], force: F8, move: F8, units: ReportUnits) -> str:
     cards, n_case = cases[0].system.cards, len(cases)
-    worst = np.abs(force).argmax(axis=1)  # (n_card, 6): the case
-    largest = np.take_along_axis(force, worst[:, None], axis=1)
+    found = envelope(cases)  # on the pipe
+    extreme = -np.stack([found.lowest, found.highest], axis=1)
+    which = np.stack([found.lowest_case, found.highest_case], axis=1)
     several = n_case > 1
     if several:
-        force = np.concatenate([force, largest], axis=1)
-        move = np.concatenate([move, np.zeros((len(cards), 1, 3))], axis=1)
+        force = np.concatenate([force, extreme], axis=1)
+        move = np.concatenate([move, np.zeros((len(cards), 2, 3))], axis=1)
     columns = _quantities(force, move, units)
     nothing = 1e-5 * np.repeat([np.abs(half).max() for half in np.split(force, 2, axis=2)], 3)
+    which[np.abs(extreme) <= nothing] = -1
     rows = list(zip(*(c.cells for c in columns), strict=True))
     per = len(rows) // len(cards)
     states = list(zip(*(card_states(case) for case in cases), strict=True))
     names = [case.name for case in cases]
+    governing = [*names, "-"]  # -1: none
     head = [words("CASE", names, least=12, most=12), words("STATE", ["engaged"], least=9)]
     row = "  " + "".join(c.form for c in head + columns) + "\n"
     top = "  " + head[0].form + head[1].form + "".join(c.form for c in columns[:6]) + "\n"
@@ -61,11 +73,9 @@ def _blocks(cases: Sequence[CaseResult], force: F8, move: F8, units: ReportUnits
         own = rows[i * per : i * per + n_case]
         for name, state, values in zip(names, states[i], own, strict=True):
             out.append(row % (name, state or "", *values))
-        if several:
-            out.append(top % ("MAX", "", *rows[i * per + n_case][:6]))
-            sizes = np.abs(largest[i, 0]) > nothing
-            found = zip(worst[i].tolist(), sizes.tolist(), strict=True)
-            out.append(where % ("", "", *(names[j] if there else "-" for j, there in found)))
+        for k, word in enumerate(("MAX", "MIN") if several and (which[i] >= 0).any() else ()):
+            out.append(top % (word, "", *rows[i * per + n_case + k][:6]))
+            out.append(where % ("", "", *(governing[j] for j in which[i, k].tolist())))
     return "".join(out)
 
 

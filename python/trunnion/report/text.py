@@ -7,6 +7,7 @@ from trunnion.report.columns import PAGE, chapter, section, wrapped
 from trunnion.report.echo import input_echo
 from trunnion.report.frozen import frozen_table, frozen_warning
 from trunnion.report.loops import cycle_report, cycle_warnings
+from trunnion.report.modes import mode_report, mode_warnings
 from trunnion.report.points import middle_table, sag_table, stress_table
 from trunnion.report.proof import balance_table, certificate_table, history_table, ledger_table
 from trunnion.report.restraints import restraint_summary
@@ -33,20 +34,22 @@ def text_report(results: Results, model: Model) -> bytes:
     parts += [wrapped(f"{c.name}: {cause_of(c)}") for c in results.cases.values() if not is_good(c)]
     parts.append(warnings(results, units))
     parts.append(chapter("2  INPUT"))
-    texts = {name: case.text for name, case in results.cases.items()}
-    parts.append(input_echo(model, results.system, texts, units))
+    sums = {name: case.text for name, case in results.cases.items()}
+    parts.append(input_echo(model, results.system, sums, units))
     parts.append(chapter("3  LOADS ON RESTRAINTS"))
     parts.append(restraint_summary(good, units))
     parts.append(chapter("4  RESULTS BY CASE"))
     parts.append(wrapped(CERTIFIED, ""))
     locked = {c.name for c in model.cases if isinstance(c, Case) and is_locked(c)}
     parts += [_case(case, units, case.name in locked) for case in results.cases.values()]
-    number = 5
+    more: dict[str, list[str]] = {}
+    if results.modes is not None:
+        more["MODES"] = [mode_report(results.modes, results.system, units)]
     if results.cycles:
-        parts.append(chapter(f"{number}  CYCLES"))
-        parts += [cycle_report(cycle, units) for cycle in results.cycles.values()]
-        number += 1
-    parts.append(chapter(f"{number}  WORK"))
+        more["CYCLES"] = [cycle_report(cycle, units) for cycle in results.cycles.values()]
+    for number, (title, texts) in enumerate(more.items(), 5):
+        parts += [chapter(f"{number}  {title}"), *texts]
+    parts.append(chapter(f"{5 + len(more)}  WORK"))
     work = {name: case.work for name, case in results.cases.items()}
     parts.append(ledger_table(work | {"whole run": results.work}))
     parts.append(f"\n{'END OF REPORT':^{PAGE}}".rstrip() + "\n")
@@ -87,5 +90,5 @@ def warnings(results: Results, units: ReportUnits) -> str:
     for case in results.cases.values():
         lines += [f"{case.name}: {line}" for line in case.warnings]
         lines += frozen_warning(case, units)
-    lines += cycle_warnings(results)
+    lines += mode_warnings(results) + cycle_warnings(results)
     return text + ("".join(wrapped(line) for line in lines) or "  none\n")

@@ -1,0 +1,30 @@
+"""The JSON's modes."""
+
+import numpy as np
+
+from trunnion.arrays import ModeSet, System
+from trunnion.report.encode import dump, finite, lines, listing, rows
+from trunnion.tables import mass_percent, period_of
+
+
+def mode_entries(modes: ModeSet, system: System) -> str:
+    """Write frequencies, participation, effective mass, proof, and shapes at the model's nodes."""
+    share = mass_percent(modes)
+    named = [dict(zip(system.labels, rows(shape), strict=False)) for shape in modes.shape]
+    return lines(
+        {
+            "frequency_hz": dump(modes.frequency.tolist()),
+            "period_s": dump([finite(x) for x in period_of(modes).tolist()]),
+            "participation": f"[{','.join(rows(modes.participation))}]",
+            "effective_mass": f"[{','.join(rows(modes.effective_mass))}]",
+            "effective_mass_percent": f"[{','.join(rows(share))}]",
+            "effective_mass_sum_percent": dump(np.sum(share, axis=0).tolist()),
+            "total_mass": dump(modes.total_mass.tolist()),
+            "residual": dump([finite(x) for x in modes.residual.tolist()]),
+            "rigid": dump(modes.rigid),
+            "added_nodes": dump(modes.added),
+            "proven": dump(modes.proven),
+            "counted_hz": dump(modes.counted),
+            "shapes": listing(lines(shape) for shape in named),
+        }
+    )
