@@ -9,6 +9,7 @@ from trunnion.arrays import F8, CaseResult, Loads, Results, System
 from trunnion.casetext import case_text, in_order
 from trunnion.combine import combine
 from trunnion.cycles import follow
+from trunnion.default_cases import with_cases
 from trunnion.loads import LoadSets, case_loads, case_warnings, load_sets
 from trunnion.model import Case, Comb, Model
 from trunnion.occasional import LockedPass
@@ -34,7 +35,7 @@ class Start:
 
 
 def solve(model: Model, *, starts: Mapping[str, Start] | None = None) -> Results:
-    """Solve every case and combination of a model.
+    """Solve every case and combination of a model; one without cases takes default ones.
 
     Parameters
     ----------
@@ -48,7 +49,7 @@ def solve(model: Model, *, starts: Mapping[str, Start] | None = None) -> Results
         The structure is impossible, or moves freely even with every contact closed.
     """
     model.check()
-    return Run(model, starts or {}).results()
+    return Run(with_cases(model), starts or {}).results()
 
 
 def solve_system(

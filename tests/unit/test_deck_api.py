@@ -31,9 +31,20 @@ HANGER 30 RATE=50N/mm LOAD=6.2
 FORCE 40 F1 FY=-5
 DISPLACEMENT 10 D1 DX=4 RY=1deg
 ACCELERATION U1 X=0.3
+SNUBBER 30 (0.6,0,0.8) K=5
+SNUBBER 40 X NAME=SN-2
+WIND WIND1 DIR=(1,0,0) PRESSURE=(0,450),(10000,612.5) SHAPE=0.9
+SNOW 0.2
+SPECTRUM SSE Y=M/S2 TABLE=(0.5,1),(2.5,6),(33,2.5)
+GROUP NORTH = 10, 40
+MODES 12 ABOUT=OPE ROTARY=OFF
 CASE SUS = W + P1 + H
 CASE OPE = W + P1 + T1 + D1 + F1 FROM=SUS STEPS=2
 COMB EXP = OPE - SUS
+CASE EQN = U1 + WIND1 ABOUT=OPE NONLINEAR
+CASE RSX = SPECTRUM(SSE,X) MISSING=ON ZPA=0.2
+COMB ENV = SRSS(EQN,RSX) + MAX(SUS,EXP)
+CYCLE HEAT = OPE, SUS TIMES=4 FROM=SUS
 """
 
 
@@ -62,6 +73,17 @@ def built():
     m.case("SUS", "W + P1 + H")
     m.case("OPE", "W + P1 + T1 + D1 + F1", FROM="SUS", STEPS=2)
     m.comb("EXP", "OPE - SUS")
+    m.snubber(30, np.array([0.6, 0, 0.8]), K=5e6)
+    m.snubber(40, "x", NAME="SN-2")
+    m.wind("WIND1", DIR=(1, 0, 0), PRESSURE=[(0, 450), ("10m", 612.5)], SHAPE=0.9)
+    m.snow(200)
+    m.spectrum("SSE", Y="M/S2", TABLE=np.array([[0.5, 1], [2.5, 6], [33, 2.5]]))
+    m.group("north", 10, "40")
+    m.modes(12, ABOUT="OPE", ROTARY=False)
+    m.case("EQN", "U1 + WIND1", ABOUT="OPE", NONLINEAR=True)
+    m.case("RSX", "SPECTRUM(SSE,X)", MISSING=True, ZPA=0.2)
+    m.comb("ENV", "SRSS(EQN,RSX) + MAX(SUS,EXP)")
+    m.cycle("HEAT", "OPE", "SUS", TIMES=4, FROM="SUS")
     return m
 
 
@@ -108,6 +130,17 @@ CALLS = [
     (lambda m: m.case("X", "OPE - W"), "CASE X: OPE is a case; CASE sums load sets"),
     (lambda m: m.case("X", "W", STEPS=0), "CASE X: STEPS=0 must be 1 to"),
     (lambda m: m.comb("X", "OPE/2"), "COMB X: / where + or - should stand"),
+    (lambda m: m.snubber(10, "XY"), "SNUBBER 10 XY: direction XY is not one of X Y Z or (a,b,c)"),
+    (lambda m: m.snow("2bar"), "SNOW: unit bar does not fit"),
+    (lambda m: m.spectrum("B", TABLE=[(1, 2)]), "SPECTRUM B: a spectrum needs two points"),
+    (lambda m: m.spectrum("B", TABLE=[(1, 2, 3)]), "SPECTRUM B: TABLE: point 1 of the table has 3"),
+    (lambda m: m.spectrum("B", TABLE=[1, 2]), "SPECTRUM B: TABLE: (1, 2) is no table of points"),
+    (lambda m: m.wind("WIND2", DIR=(1, 0, 0)), "WIND WIND2: give one of PRESSURE="),
+    (lambda m: m.modes(3), "MODES: there is one at test_deck_api.py"),
+    (lambda m: m.cycle("HOT", "OPE", "SUS"), "CYCLE HOT: TIMES= is missing"),
+    (lambda m: m.cycle("H", "OPE", "SUS", TIMES=2), "CYCLE H: H is the name of a load set"),
+    (lambda m: m.case("X", "W", NONLINEAR=True), "CASE X: NONLINEAR goes with ABOUT="),
+    (lambda m: m.comb("X", "ABS(OPE,SUS)"), "COMB X: ABS takes one expression"),
     (lambda m: m.default(MU=0.4), "DEFAULT: MU has another value"),
 ]
 

@@ -47,11 +47,34 @@ DISPLACEMENT 10 D1 DY=-2
 FORCE    50 F1  FY=-5 MX=1.25
 FORCE    50 F1  FY=-1
 ACCELERATION U1 X=0.3
+ACCELERATION U9 Z=-0.2
+SNUBBER  20     X K=5 CNODE=30N NAME=SN-1
+SNUBBER  45     (0.6,0,0.8)
+WIND     WIND1 DIR=(1,0,0) PRESSURE=(0,450),(10000,612.5) SHAPE=0.9 GROUND=-500
+WIND     WIND2 DIR=(0,0,-2) VELOCITY=(0,20), (7500,25.5)
+WIND     WIND9 DIR=(1,0,1) ASCE7=45 EXPOSURE=B KZT=1.2 KD=0.95 GUST=0.9
+SNOW     0.2
+SNOW     0.1
+SPECTRUM SSE TABLE=(0.5,0.1),(2.5,0.6),(9,0.6),(33,0.25)
+SPECTRUM OBE X=PERIOD Y=IN/S2 INTERP=LINEAR TABLE=(0.03,96.6),(0.11,231.84),(0.7,110)
+GROUP    NORTH = 10, 20
+GROUP    SOUTH = 40
+MODES    12 ABOUT=OPE FMAX=33.5 MASS=CONSISTENT MESH=NONE ROTARY=OFF FRICTION=50
 CASE SUS = W + P1 + H
 CASE OPE = 1.1*W + P1 - 0.5*T1 + T2 FROM=SUS STEPS=4 MUX=0.5 E=HOT EVENTS=ON ITERATION=STATUS
 CASE EQ = W + U1 + U(0,-0.3,0.1) + D1 + F1 SNUBBERS=FREE
 COMB EXP = OPE - SUS
 CASE DIF = EQ - SUS
+CASE HSUS = W + P1 ON=OPE
+CASE EQX = U(0.3,0,0) - 0.4*U9 ABOUT=OPE
+CASE EQN = U(0.3,0,0) NONLINEAR ABOUT=OPE STEPS=3 SNUBBERS=LOCKED
+CASE WIN = WIND1 + 0.5*WIND9 - WIND2 + S ABOUT=OPE
+CASE RSX = SPECTRUM(SSE,X) + 0.5*SPECTRUM(OBE,Y,0.67) MODAL=CQC DAMPING=0.05 ZPA=0.213 MISSING=ON
+CASE RSG = SPECTRUM(SSE,X,1.5,NORTH) + SPECTRUM(OBE,X,1,SOUTH) GROUPS=SRSS SPATIAL=ABS &
+  MODAL=DSUM DURATION=12 FIRST=DIRECTIONS
+COMB ENV = SRSS(EQX, WIN, 2*RSX) + MAX(ABS(SUS),MIN(OPE,SUS)) - SIGNMAX(EXP, -HSUS) + SCALAR(SUS)
+CYCLE HEAT = OPE, SUS TIMES=4 FROM=SUS
+CYCLE COLD = SUS, OPE, SUS TIMES=9
 COMB OCC = -(SUS - 2*EXP) + ABS(EQ) - (OPE - (SUS + EQ))
 """
 
@@ -179,7 +202,13 @@ def test_unit_suffixes_do_not_change_the_model(kind):
 
 def test_order_of_cards_that_carry_nothing_does_not_change_what_they_say():
     lines = cards(EXAMPLE)
-    restraints = ("ANCHOR", "SUPPORT", "HANGER", "SPRING")  # their order is that of the report
+    restraints = (
+        "ANCHOR",
+        "SUPPORT",
+        "HANGER",
+        "SPRING",
+        "SNUBBER",
+    )  # their order is that of the report
     late = [line for line in lines if line.split()[0] in (*restraints, "BEND", "DEFAULT", "MASS")]
     rest = [line for line in lines if line not in late]
     assert read_text("\n".join([*rest, *late])) == read_text(EXAMPLE)

@@ -48,7 +48,8 @@ def add(
             else:
                 read_key(record.keys, None, item, keyword, fields.readers[keyword], complain)
         record.args.append(str(args[0]).strip().upper())
-        check_case_name(record, None, complain)
+        if keyword != "GROUP":
+            check_case_name(record, None, complain)
         if form == "equation":
             read_expression(record, str(args[1]), 0, complain)
         else:

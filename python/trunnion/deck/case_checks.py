@@ -117,17 +117,23 @@ def links_of(case: Named) -> list[Link]:
 
 def _references(model: Model, named: list[Named], broken: Set[str]) -> Iterator[Fault]:
     """Check that names of cases are those of cases, and that none leads back to itself."""
-    cases: dict[str, Named] = {case.name: case for case in named}
-    links: dict[str, list[Link]] = {}
+    cases: dict[str, Named] = {}
     for case in named:
-        mine = links.setdefault(case.name, [])
-        for link in links_of(case):
+        cases.setdefault(case.name, case)  # a second one of a name is told
+    links = {name: links_of(case) for name, case in cases.items()}
+    known = {name: [k for k in mine if k.name in cases] for name, mine in links.items()}
+    looped: set[str] = set()
+    for loop in _loops(known):
+        looped.update(loop)
+        case, second = cases[loop[0]], loop[1 % len(loop)]
+        chain = " -> ".join([*loop, loop[0]])
+        mark = next(link.mark for link in known[loop[0]] if link.name == second)
+        yield Fault(case.place, _head(case), f"needs itself: {chain}", mark)
+    for name, case in cases.items():
+        for link in links[name]:
             fault = _refused(link, cases, broken)
-            if fault and link.name != case.name:
+            if fault and not looped.issuperset((name, link.name)):
                 yield Fault(case.place, _head(case), fault, link.mark)
-            if link.name in cases:
-                mine.append(link)
-    yield from _loops(cases, links)
     if model.modal is not None and model.modal.about is not None:
         link = Link(model.modal.about, "ABOUT=", "ABOUT")
         fault = _refused(link, cases, broken)
@@ -165,7 +171,7 @@ def has_state(case: Case) -> bool:
     return case.about is None and case.on is None and case.spectrum is None
 
 
-def _loops(cases: dict[str, Named], links: dict[str, list[Link]]) -> Iterator[Fault]:
+def _loops(links: dict[str, list[Link]]) -> Iterator[list[str]]:
     """Find the cases that need themselves: take away those that need nothing, again and again."""
     needs = {name: {link.name for link in mine} for name, mine in links.items()}
     users: dict[str, list[str]] = {name: [] for name in needs}
@@ -180,16 +186,13 @@ def _loops(cases: dict[str, Named], links: dict[str, list[Link]]) -> Iterator[Fa
             if not needs[user]:
                 free.append(user)
         del needs[name]
-    order = {name: i for i, name in enumerate(cases)}
+    order = {name: i for i, name in enumerate(links)}
     while needs:
         loop = [next(iter(needs))]
         while (following := min(needs[loop[-1]], key=order.__getitem__)) not in loop:
             loop.append(following)
         loop = loop[loop.index(following) :]
-        case, second = cases[loop[0]], loop[1 % len(loop)]
-        chain = " -> ".join([*loop, loop[0]])
-        mark = next(link.mark for link in links[loop[0]] if link.name == second)
-        yield Fault(case.place, _head(case), f"needs itself: {chain}", mark)
+        yield loop
         dead = set(loop)
         while dead:  # and whoever needs the loop
             needs = {n: o for n, o in needs.items() if n not in dead}

@@ -5,10 +5,7 @@ from trunnion.deck.context import Context
 from trunnion.deck.record import Record
 from trunnion.model import Case, Comb, SpectrumUse
 
-_SPECTRUM = (
-    *("MODAL", "SPATIAL", "GROUPS", "FIRST"),
-    *("DAMPING", "DURATION", "ZPA", "MISSING"),
-)
+_SPECTRUM = ("MODAL", "SPATIAL", "GROUPS", "FIRST", "DAMPING", "DURATION", "ZPA", "MISSING")
 _WITHOUT_HISTORY = ("STEPS", "MUX", "EVENTS", "ITERATION")
 
 
@@ -71,6 +68,9 @@ def _keys_fit(run: Context, record: Record) -> None:
             if key in keys:
                 message = f"{key} does nothing in a linear case without friction, {bases[0]}="
                 run.complain(record, message, f"{key}=")
+    for key, state, does in (("ABOUT", "FREE", "locks"), ("ON", "LOCKED", "frees")):
+        if key in keys and keys.get("SNUBBERS") == state:
+            run.complain(record, f"SNUBBERS={state}: {key}= {does} snubbers", "SNUBBERS=")
     for key in _SPECTRUM:
         if key in keys:
             run.complain(record, f"{key} goes with SPECTRUM(...) only", f"{key}=")
@@ -105,14 +105,14 @@ def spectrum_case(run: Context, record: Record) -> None:
     zpa = keys.get("ZPA")
     use = SpectrumUse(
         tuple(shocks),
-        keys.get("MODAL", "SRSS"),
-        keys.get("SPATIAL", "SRSS"),
-        keys.get("GROUPS", "ABS"),
-        keys.get("FIRST", "MODES"),
-        keys.get("DAMPING", 0.02),
-        keys.get("DURATION", 10.0),
-        keys.get("MISSING") == "ON",
-        None if zpa is None else zpa * run.model.settings.g,
+        modal=keys.get("MODAL", "SRSS"),
+        spatial=keys.get("SPATIAL", "SRSS"),
+        groups=keys.get("GROUPS", "ABS"),
+        first=keys.get("FIRST", "MODES"),
+        damping=keys.get("DAMPING", 0.02),
+        duration=keys.get("DURATION", 10.0),
+        missing_mass=keys.get("MISSING") == "ON",
+        zpa=None if zpa is None else zpa * run.model.settings.g,
     )
     run.keep(run.model.cases, Case(record.args[0], (), place=record.place, spectrum=use))
 

@@ -25,7 +25,8 @@ def read_equation(record: Record, text: str, at: int, fields: Fields, complain: 
         complain(f"name missing; {form}", None)
         return
     record.args.append(name.upper())
-    check_case_name(record, (at, at + len(name)), complain)
+    if record.keyword != "GROUP":
+        check_case_name(record, (at, at + len(name)), complain)
     start = at + text.index("=") + 1
     keys_from = len(rest)
     rest = _take_flags(record, rest)

@@ -507,7 +507,7 @@ TABLE: tuple[Keyword, ...] = (
     Keyword(
         "MODES",
         "Natural frequencies and modes about the frozen contact state of a case.",
-        (Positional("n", "integer", "how many modes", bounds=Bounds(1, 10000)),),
+        (Positional("n", "integer", "number of modes", bounds=Bounds(1, 10000)),),
         (
             _number("FMAX", "highest frequency of interest [Hz]", "number", "none", POSITIVE),
             Key(

@@ -6,6 +6,7 @@ from itertools import groupby
 import numpy as np
 
 from trunnion.arrays import ARC, System
+from trunnion.default_cases import with_cases
 from trunnion.model import Case, Comb, Model
 from trunnion.report.columns import Column, integers, numbers, plain, section, table, words, wrapped
 from trunnion.report.dynamics import cycle_text, dynamic_echo, spectrum_options
@@ -244,10 +245,11 @@ def _six(kind: str, values: Sequence[Sequence[float]], units: ReportUnits) -> li
 
 
 def _cases(model: Model, texts: Mapping[str, str]) -> str:
-    """Write every case as its card does."""
-    text = section("LOAD CASES")
-    width = max((len(case.name) for case in model.cases), default=0) + 2
-    for case in model.cases:
+    """Write every case as its card does; those of a deck that names none are marked."""
+    text = section("LOAD CASES", "" if model.cases else "default: the deck names none")
+    cases = with_cases(model).cases
+    width = max(len(case.name) for case in cases) + 2
+    for case in cases:
         words = "  ".join([texts.get(case.name, ""), *_options(case, model.settings.g)])
         text += wrapped(f"{case.name:<{width}}{words}")
     if model.cycles:
