@@ -2,7 +2,7 @@
 
 Imports no kernel and nothing of the solver.  Every item is the largest relative error of one law;
 at most `LIMIT` passes, NaN counts as inf.  Relative to what (`scales`): forces to the largest
-support force or non-thermal load, moments to the largest moment or that force times 1 m,
+support force or non-thermal load, moments to the largest moment (or that force times 1 cm),
 displacements to the largest displacement, deformations to the largest deformation, rotations
 apart.  A quantity that is only the round-off of a larger kin is measured against a small part of
 the kin (`floor`), and one that has no kin at all against 1 N, 1 N m, 1 m, 1 rad.

@@ -33,7 +33,7 @@ def measure(system: System, loads: Loads, state: State) -> Scale:
 
     Force: largest support force or non-thermal load, at least 1e-4 of the largest end force and
     of the largest moment over 1 m, and 1e-6 of what would hold the largest free strain.  Moment:
-    the largest one, or that force times 1 m.  Length and angle: the largest displacement and
+    the largest one, at least that force times 1 cm.  Length and angle: the largest displacement and
     rotation, at least 1e-3 of each other over 1 m.
     """
     turning = system.contacts.rotational
@@ -49,7 +49,7 @@ def measure(system: System, loads: Loads, state: State) -> Scale:
     force = floor(_real(force, 1e-6), _real(kin, 1e-6))
     length, angle = (_real(largest(u), 1e-18) for u in (state.u[:, :3], state.u[:, 3:]))
     return Scale(
-        force, max(moment, force), floor(length, 1e-3 * angle), floor(angle, 1e-3 * length)
+        force, max(moment, 0.01 * force), floor(length, 1e-3 * angle), floor(angle, 1e-3 * length)
     )
 
 

@@ -66,7 +66,7 @@ def _inner(
         point,
         sliding,
         forcing,
-        tolerance=SHARP * size,
+        tolerance=SHARP * max(size, 1e-6 * float(sliding.capacity.max(initial=0.0))),
         history=history,
         what="damped capacities",
     )

@@ -165,9 +165,9 @@ def renew(
         last, error = error, new - sliding.capacity
         change = float(np.abs(error).max(initial=0.0))
         grows = change > best and float(np.vdot(error, last)) > 0.0  # as a self-locking one does
-        stalled = 0 if change < PROGRESS * best or grows else stalled + 1
+        stalled = 0 if change < PROGRESS * best else stalled + (not grows)
         best = min(best, change)
-        if stalled >= STALLED:
+        if stalled >= STALLED or i == RENEWALS - 1:
             break
         sliding.capacity = new
         coupled = finish(structure, point, sliding, forcing, history)

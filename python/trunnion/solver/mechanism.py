@@ -11,6 +11,7 @@ from trunnion.solver.structure import Point, Response, Sliding, Structure
 BLOCK = 8  # vectors iterated together
 ITERATIONS = 12
 ROUND_OFF = 1e-24  # energy of a null motion, of the largest stiffness
+RITZ, RESOLVED = 3, 1e-12  # energies below this part of the largest are taken apart once more
 AXES = "XYZ"
 
 
@@ -38,15 +39,38 @@ def null_motions(structure: Structure, tangent: F8, slider_tangent: F8) -> list[
     v[:, structure.absent] = 0.0
     for _ in range(ITERATIONS):
         v = _orthonormal(structure.solve(v))
-    image = np.stack([_product(structure, tangent, slider_tangent, x) for x in v])
-    energy = np.einsum("ani,bni->ab", v, image)
-    value, turn = np.linalg.eigh(0.5 * (energy + energy.T))
     stiffest = max(structure.scale, float(structure.contacts.k.max(initial=0.0)))
+    for _ in range(RITZ):
+        value, v = _ritz(structure, tangent, slider_tangent, v)
+        near = np.abs(value) <= RESOLVED * float(np.abs(value).max(initial=0.0))
+        if near.all() or not near.any():
+            break
+        value, v = value[near], v[near]
     null = np.abs(value) <= ROUND_OFF * stiffest * 6 * n
     if not null.any():
         return []
-    shapes = np.einsum("ab,ani->bni", turn[:, null], v)
-    return [Motion(describe(structure.system, x), x) for x in _separate(shapes)]
+    return _named([Motion(describe(structure.system, x), x) for x in _separate(v[null])])
+
+
+def _named(motions: list[Motion]) -> list[Motion]:
+    """Give the six motions of a line that nothing holds one name."""
+    of: dict[str, list[Motion]] = {}
+    for motion in motions:
+        who = motion.text.partition(" turns ")[0].partition(" moves ")[0]
+        of.setdefault(who, []).append(motion)
+    named = []
+    for who, own in of.items():
+        every = Motion(f"{who} moves freely in all six ways: no restraint holds it", own[0].v)
+        named += [every] if len(own) == 6 else own
+    return named
+
+
+def _ritz(structure: Structure, tangent: F8, slider_tangent: F8, v: F8) -> tuple[F8, F8]:
+    """Energies of the span of v and its shapes without coupling; exact to eps of the largest."""
+    image = np.stack([_product(structure, tangent, slider_tangent, x) for x in v])
+    energy = np.einsum("ani,bni->ab", v, image)
+    value, turn = np.linalg.eigh(0.5 * (energy + energy.T))
+    return value, np.einsum("ab,ani->bni", turn, v)
 
 
 def _orthonormal(v: F8) -> F8:
@@ -106,7 +130,7 @@ def _direction(a: F8) -> str:
     k = int(np.argmax(np.abs(a)))
     if abs(a[k]) > 0.9999:
         return AXES[k]
-    a = a * np.sign(a[k])
+    a = np.where(np.abs(a) < 1e-6, 0.0, a * np.sign(a[k]))
     return "({:.3g},{:.3g},{:.3g})".format(*a)
 
 

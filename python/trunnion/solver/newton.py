@@ -3,7 +3,8 @@
 Elements, contacts and sliders of fixed capacity are gradients of convex energies, so every step
 of the consistent tangent with an exact line search goes down from anywhere.  Full steps settle
 the open and closed contacts in far fewer passes than searched ones (they move like an active-set
-method), but may cycle; so a bounded number of full steps is tried first where asked.
+method), but may cycle; so a bounded number of full steps is tried first where asked.  Searched
+steps crawl along a round guide's gap, a stiff curved valley: there full steps come back.
 """
 
 from dataclasses import dataclass
@@ -15,6 +16,7 @@ from trunnion.solver.history import History
 from trunnion.solver.structure import Forcing, Point, Response, Sliding, Structure
 
 FULL_STEPS = 12  # tried before the line search takes over
+CALM = 8  # searched steps without a contact that opens or closes, after which full ones may return
 TINY_PIVOT = 1e-14  # rcond below which the tangent counts as singular
 PROXIMAL = 1e-9  # of the largest element stiffness, on the diagonal of a singular tangent
 RUNAWAY = 1e3  # displacement over the size of the model that means a mechanism
@@ -55,7 +57,7 @@ def relax(
     r, _, response = structure.residual(point, sliding, forcing)
     changing = np.zeros_like(r)
     structure.respond(point, sliding, forcing, changing, changing=True)
-    shifted = False
+    shifted, calm = False, 0
     for i in range(limit):
         residual = float(np.abs(r).max())
         if i > 0 and residual <= tolerance:
@@ -70,6 +72,8 @@ def relax(
             push = float(np.vdot(r, p))
             stiff = push - shift * float(np.vdot(p, p))
             step = structure.search(point, sliding, forcing, p, (push, stiff))
+            if not step * np.abs(p).max() < RUNAWAY * structure.size:
+                return Outcome(response, r, residual, False, runaway=True, shifted=shifted)
         r -= step * (r - shift * p)
         kernel_part = np.zeros_like(r)
         structure.changing_product(response, p, kernel_part)
@@ -79,6 +83,10 @@ def relax(
         response = structure.respond(point, sliding, forcing, changing, changing=True)
         r += changing
         history.add(what, residual, step, before, response)
+        same = np.array_equal(before.side, response.side)
+        calm = calm + 1 if same and i >= full_steps else 0
+        if calm == CALM:
+            full_steps, calm = i + 1 + FULL_STEPS, 0
     residual = float(np.abs(r).max())
     return Outcome(response, r, residual, residual <= tolerance, shifted=shifted)
 

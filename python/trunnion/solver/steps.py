@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -14,8 +15,8 @@ from trunnion.solver.verdict import commit
 
 RAMPS = (2, 4, 8, 16, 32, 64)
 EVENTS = 200  # closings located in one step, at most
-LAST_PASSES = 3000  # of the status iteration where newton has failed
-LOCATED = 1e-10  # of the gap, where the load fraction of a closing counts as found
+LAST_PASSES = 3000  # of the status iteration where one step has failed
+LOCATED = 1e-12  # of the size of the model: an opening at which a closing counts as found
 
 Step = Callable[[Structure, Point, Sliding, Forcing, History], Solved]
 
@@ -114,6 +115,9 @@ def _fallbacks(
     """Ramping, then the status iteration with freezing; the first cause stands if all fail."""
     if "without bound" in (first.cause or ""):
         return first
+    is_status = solve is solve_status
+    if is_status:
+        solve = partial(solve_status, passes=LAST_PASSES)
     for n in RAMPS:
         if not (law.mu > 0.0).any():
             break  # without history a ramp ends where one step does
@@ -127,7 +131,7 @@ def _fallbacks(
             return solved
         if "without bound" in (solved.cause or ""):
             return first
-    if solve is not solve_status:
+    if not is_status:
         _return(point, before)
         solved = solve_status(structure, point, law, target, history, passes=LAST_PASSES)
         if solved.settled:
@@ -237,24 +241,40 @@ def _closing(
     closed: B1,
     history: History,
 ) -> float | None:
-    """Smallest load fraction at which one of the contacts closes, by bisection and secant."""
-    a, b = 0.0, 1.0
-    fa = float(_opening(structure, before, start)[closed].min())
-    fb = -1.0
-    for i in range(60):
-        t = 0.5 * (a + b) if i % 2 or fb < -0.5 * fa else a + (b - a) * fa / (fa - fb)
+    """Smallest load fraction at which one of the contacts closes.
+
+    By bisection, and by the line through the last two open points; a closed contact tells
+    nothing but its penetration, so the line aims at an opening just above zero.
+    """
+    near = LOCATED * structure.size
+    open_at: list[tuple[float, float]] = [(0.0, _least(structure, before, start, closed))]
+    b = 1.0
+    for _ in range(60):
+        a, fa = open_at[-1]
+        t = 0.5 * (a + b)
+        if len(open_at) > 1:
+            a0, f0 = open_at[-2]
+            slope = fa - f0
+            aim = a + (0.5 * near - fa) * (a - a0) / slope if slope < 0.0 else t
+            t = aim if a < aim < b else t
         point = before.copy()
         part = start.toward(target, t)
         if not solve(structure, point, law, part, history).settled:
             return None
-        f = float(_opening(structure, point, part)[closed].min())
-        if abs(f) <= LOCATED * structure.size or b - a <= 1e-14:
+        f = _least(structure, point, part, closed)
+        if 0.0 < f <= near:
             return t
         if f > 0.0:
-            a, fa = t, f
+            open_at.append((t, f))
         else:
-            b, fb = t, f
+            b = t
+        if b - open_at[-1][0] <= 1e-14:
+            return b
     return b
+
+
+def _least(structure: Structure, point: Point, forcing: Forcing, which: B1) -> float:
+    return float(_opening(structure, point, forcing)[which].min())
 
 
 def _return(point: Point, to: Point) -> None:

@@ -242,14 +242,17 @@ class Structure:
             )
         else:
             free = resultant = np.zeros((0, 6))
-        base = np.where(c.rotational[:, None], loads.base[c.card, 3:], loads.base[c.card, :3])
+        moved, cold = loads.base, loads.preload
+        if not len(moved):  # a model without supports, before it is refused as a mechanism
+            moved, cold = np.zeros((1, 6)), np.zeros(1)
+        base = np.where(c.rotational[:, None], moved[c.card, 3:], moved[c.card, :3])
         return Forcing(
             free,
             resultant,
             np.ascontiguousarray(loads.nodal),
             np.ascontiguousarray(base),
-            np.ascontiguousarray(loads.base[self.sliders.card, :3]),
-            np.ascontiguousarray(loads.preload[c.card, None] * s.up),
+            np.ascontiguousarray(moved[self.sliders.card, :3]),
+            np.ascontiguousarray(cold[c.card, None] * s.up),
             loads.mux,
         )
 
