@@ -274,7 +274,8 @@ class Gathered:
     size of a sum is not the sum of sizes.
 
     card_force : (n_card, 6) on the pipe; card_normal, card_friction : (n_card, 3) its parts.
-    card_load : (n_card, 6) on the restraint; None: the opposite, which sizes are not.
+    card_load : (n_card, 6) on the restraint: the opposite, but a size stays what it is; None:
+        there are no sizes.
     local_force : (n_elem, 2, 6) end forces in the axes of the ends; None: those of `end_force`.
     section_force : (n_elem, 2, 6) the same with the signs of a section, tension positive; None:
         from `local_force` or `end_force` by turning the signs of the first end.

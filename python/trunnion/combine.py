@@ -257,8 +257,15 @@ def _cut(row: Numbers, shapes: Mapping[str, tuple[int, ...]]) -> dict[str, F8]:
     return found | {"u_low": low.reshape(found["u"].shape)}
 
 
-def _unfold(answer: CaseResult, found: Mapping[str, F8]) -> None:
-    """Give a combination its arrays; what it does not have is zero."""
+def _unfold(answer: CaseResult, found: dict[str, F8]) -> None:
+    """Give a combination its arrays; what it does not have is zero.
+
+    A load that comes out the same from the forces on the pipe and from those on the restraint is
+    a size; any other is the opposite of the force on the pipe.
+    """
+    if "card_load" in found:
+        force = found["card_force"]
+        found["card_load"] = np.where(found["card_load"] == force, force, -force)
     n_contact, n_slider = len(answer.system.contacts.k), len(answer.system.sliders.mu)
     answer.state = State(
         u=found["u"],

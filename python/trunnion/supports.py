@@ -199,10 +199,16 @@ def envelope(cases: Sequence[CaseResult]) -> Envelope:
 
 
 def range_ratio(loop: F8, alone: F8) -> F8:
-    """Ratio of ranges (..., 6); NaN where the one-shot range is next to nothing of its kind."""
+    """Ratio of ranges (..., 6); NaN where the one-shot range is next to nothing of its kind.
+
+    Moments that are 1e-6 of the forces at 1 m are round-off, and the other way round.
+    """
     ratio = np.full(loop.shape, np.nan)
+    known = np.nan_to_num(alone)
+    floor = 1e-6 * max(loop.max(initial=0.0), known.max(initial=0.0))
     for half in (slice(0, 3), slice(3, 6)):
-        a, b = loop[..., half], alone[..., half]
-        there = b > 1e-6 * np.max([a.max(initial=0.0), np.nan_to_num(b).max(initial=0.0)])
+        a, b = loop[..., half], known[..., half]
+        size = max(a.max(initial=0.0), b.max(initial=0.0), floor)
+        there = b > 1e-6 * size
         ratio[..., half] = np.divide(a, b, out=np.full(a.shape, np.nan), where=there)
     return ratio

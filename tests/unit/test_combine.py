@@ -227,6 +227,17 @@ def test_card_force_of_a_size_is_the_size_of_the_card_force(system):
     assert np.array_equal(gathered(comb).card_load, np.abs(card))
 
 
+def test_a_load_on_a_restraint_opposes_the_pipe_unless_it_is_a_size(system):
+    results = {"OPE": case(system, "OPE", 1), "EQ": case(system, "EQ", 2)}
+    mixed = ("+", OPE, ("srss", ("case", "EQ")))
+    found = gathered(combine(Comb("C", mixed, ""), results))
+    assert np.array_equal(found.card_load, -found.card_force)
+    size = np.abs(gathered(results["EQ"]).card_force)
+    assert found.card_force == pytest.approx(gathered(results["OPE"]).card_force + size)
+    lone = gathered(combine(Comb("C", ("srss", OPE, ("case", "EQ")), ""), results))
+    assert np.array_equal(lone.card_load, lone.card_force)
+
+
 def test_cases_on_other_contacts_combine_by_card(system):
     locked = dataclasses.replace(system, contacts=no_contacts(), sliders=no_sliders())
     ope, eqx = case(system, "OPE", 1), case(system, "EQX", 2)

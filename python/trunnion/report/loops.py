@@ -42,6 +42,12 @@ def cycle_warnings(results: Results) -> list[str]:
     ]
 
 
+def cycle_lines(results: Results) -> list[str]:
+    """Say in a line each which cycles repeat."""
+    found = results.cycles.values()
+    return [f"  CYCLE {c.name}: {verdict(c)}" for c in found if c.repeats and not c.cause]
+
+
 def step_names(cycle: CycleResult) -> list[str]:
     """Name the steps: "1 OPE", "1 SUS", "2 OPE" ..."""
     n = len(cycle.cases)
@@ -86,8 +92,9 @@ def _blocks(
 ) -> str:
     """Print blocks of rows under their titles; values are (n, row, 6), ratio is (n, 6)."""
     known = np.nan_to_num(values)
-    q = units.force.showing(largest(known[..., :3]))
-    m = units.moment.showing(largest(known[..., 3:]))
+    force, moment = largest(known[..., :3]), largest(known[..., 3:])
+    q = units.force.showing(max(force, 1e-6 * moment))  # less is round-off
+    m = units.moment.showing(max(moment, 1e-6 * force))
     flat = values.reshape(-1, 6)
     columns: list[Column] = [
         numbers(head, flat[:, i], m if i > 2 else q, 15) for i, head in enumerate(HEADS)

@@ -12,7 +12,7 @@ def mode_report(modes: ModeSet, system: System, units: ReportUnits) -> str:
     """Print the modes; shapes at the nodes of the model's own `system` only."""
     if not len(modes.frequency):
         return "\n  none\n"
-    return _table(modes) + _mass(modes, units) + _proof(modes) + _shapes(modes, system)
+    return _table(modes, units) + _mass(modes, units) + _proof(modes) + _shapes(modes, system)
 
 
 def mode_warnings(results: Results) -> list[str]:
@@ -41,14 +41,15 @@ def mode_lines(results: Results) -> list[str]:
     return [f"  {len(modes.frequency)} modes: {lowest}{more} Hz; effective mass {mass} %"]
 
 
-def _table(modes: ModeSet) -> str:
-    part, share = modes.participation, mass_percent(modes)
+def _table(modes: ModeSet, units: ReportUnits) -> str:
+    part = modes.participation * units.mass.factor**0.5
+    share, unit = mass_percent(modes), f"[{units.mass.unit}^0.5]"
     sums = np.cumsum(share, axis=0)
     columns = [
         integers("MODE", [i + 1 for i in range(len(modes.frequency))], 6),
         plain("FREQUENCY", modes.frequency, 5, 13, "[Hz]"),
         plain("PERIOD", period_of(modes), 6, 12, "[s]"),
-        *(plain(f"PART. {c}", part[:, i], 3, 11, "[kg^0.5]") for i, c in enumerate("XYZ")),
+        *(plain(f"PART. {c}", part[:, i], 3, 11, unit) for i, c in enumerate("XYZ")),
         *(plain(f"MASS {c}", share[:, i], 3, 9, "[%]") for i, c in enumerate("XYZ")),
         *(plain(f"SUM {c}", sums[:, i], 3, 9, "[%]") for i, c in enumerate("XYZ")),
     ]

@@ -37,7 +37,8 @@ def certificate_table(case: CaseResult) -> str:
     if found is None:
         return text + "  none\n"
     verdict = "PASSED" if found.passed else "FAILED"
-    inherited = ", inherited from the cases it combines" if found.inherited else ""
+    parents = "the modes" if case.kind == "spectrum" else "the cases it combines"
+    inherited = f", inherited from {parents}" if found.inherited else ""
     text += wrapped(f"{verdict}: worst {found.worst:.1e}, {found.where}{inherited}")
     if found.items:
         values = [f"{item.value:.1e}" if item.value else "0" for item in found.items]

@@ -4,6 +4,7 @@ from trunnion.arrays import CaseResult, Results
 from trunnion.model import Case, Model
 from trunnion.report.answers import displacement_table, element_tables
 from trunnion.report.columns import PAGE, chapter, section, wrapped
+from trunnion.report.dynamics import modes_text
 from trunnion.report.echo import input_echo
 from trunnion.report.frozen import frozen_table, frozen_warning
 from trunnion.report.loops import cycle_report, cycle_warnings
@@ -44,7 +45,8 @@ def text_report(results: Results, model: Model) -> bytes:
     parts += [_case(case, units, case.name in locked) for case in results.cases.values()]
     more: dict[str, list[str]] = {}
     if results.modes is not None:
-        more["MODES"] = [mode_report(results.modes, results.system, units)]
+        asked = f"\n  {modes_text(model.modal)}\n" if model.modal else ""
+        more["MODES"] = [asked, mode_report(results.modes, results.system, units)]
     if results.cycles:
         more["CYCLES"] = [cycle_report(cycle, units) for cycle in results.cycles.values()]
     for number, (title, texts) in enumerate(more.items(), 5):
