@@ -5,20 +5,17 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from trunnion.arrays import F8, CaseResult, Loads, Results, System
+from trunnion.arrays import F8, CaseResult, CycleResult, Loads, ModeSet, Results, System
 from trunnion.casetext import case_text, in_order
 from trunnion.combine import combine
-from trunnion.cycles import follow
 from trunnion.default_cases import with_cases
 from trunnion.loads import LoadSets, case_loads, case_warnings, load_sets
 from trunnion.model import Case, Comb, Model
-from trunnion.occasional import LockedPass
 from trunnion.snubbed import go_on, locked_at_rest
 from trunnion.solver.answer import Question, answer, forcing_of, refuse_mechanisms
 from trunnion.solver.friction import Solved
 from trunnion.solver.ledger import Ledger
 from trunnion.solver.linear import solve_linear
-from trunnion.solver.locked import snubbed_system
 from trunnion.solver.steps import Origin, Plan
 from trunnion.solver.structure import Point, Structure
 from trunnion.system import build_system, hot_system
@@ -78,6 +75,7 @@ class Run:
         self.structures: dict[tuple[str, bool], Structure] = {}
         self.found: dict[str, CaseResult] = {}
         self.ended: dict[str, Origin] = {}
+        self.refused_modes: str | None = None
         self.counted = self.ledger.snapshot()  # work that stands on a case already
 
     def results(self) -> Results:
@@ -88,15 +86,42 @@ class Run:
         for own in plain:
             self._keep(self.solve_case(own, prepared.get(own.name)))
         locked = [c for c in cases if isinstance(c, Case) and (c.about or c.on)]
-        for result in LockedPass(self).solve(locked):
-            self._keep(result)
-        cycles = {c.name: follow(self, c) for c in self.model.cycles}
+        if locked:
+            from trunnion.occasional import LockedPass
+
+            for result in LockedPass(self).solve(locked):
+                self._keep(result)
+        modes = self._dynamics([c for c in cases if isinstance(c, Case) and c.spectrum])
+        cycles = self._cycles()
         for case in cases:
             if isinstance(case, Comb):
                 self.found[case.name] = combine(case, self.found)
         inorder = {case.name: self.found[case.name] for case in self.model.cases}
         work = self.ledger.snapshot()
-        return Results(self.model.title, inorder, (), work, cycles, base=self.system)
+        warnings = (self.refused_modes,) if self.refused_modes else ()
+        return Results(
+            self.model.title, inorder, warnings, work, cycles, modes=modes, base=self.system
+        )
+
+    def _dynamics(self, spectra: list[Case]) -> ModeSet | None:
+        """Find the modes and solve the spectrum cases, where a deck asks for them."""
+        if self.model.modal is None and not spectra:
+            return None
+        from trunnion.dynamics import Dynamics
+
+        dynamics = Dynamics(self)
+        self.refused_modes = dynamics.cause
+        for result in dynamics.spectra(spectra):
+            self._keep(result)
+        return dynamics.modes
+
+    def _cycles(self) -> dict[str, CycleResult]:
+        """Follow the loops of cases, where there are any."""
+        if not self.model.cycles:
+            return {}
+        from trunnion.cycles import follow
+
+        return {cycle.name: follow(self, cycle) for cycle in self.model.cycles}
 
     def _keep(self, result: CaseResult) -> None:
         """Store an answer with the work done since the last; shared work stands on the first."""
@@ -140,6 +165,8 @@ class Run:
         key = (which, snubbed)
         if key not in self.structures:
             if snubbed:
+                from trunnion.solver.locked import snubbed_system
+
                 parent = self.structure_of(which)
                 system, keep = snubbed_system(parent.system)
                 self.structures[key] = Structure(system, self.ledger, parent, keep)

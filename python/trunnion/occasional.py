@@ -22,7 +22,7 @@ from trunnion.solver.structure import Structure
 if TYPE_CHECKING:
     from trunnion.analysis import Run
 
-Key = tuple[str, str | None, bool]  # frozen case, modulus set (None: as it has), snubbers locked
+Key = tuple[str, str, bool]  # frozen case, modulus set, snubbers locked
 
 
 class LockedPass:
@@ -41,7 +41,9 @@ class LockedPass:
             elif case.nonlinear:
                 yield self._nonlinear(case, about)
             else:
-                key = (about.name, self._hot(case), _locks(case))
+                which = self._hot(case)
+                own, _ = self._key(about)
+                key = (about.name, own if which is None else which, case.about is not None)
                 groups.setdefault(key, []).append(case)
         for key, group in groups.items():
             yield from self._group(key, group)
@@ -127,19 +129,15 @@ class LockedPass:
     # ------------------------------------------------------------------ NONLINEAR
     def _nonlinear(self, case: Case, about: CaseResult) -> CaseResult:
         """Operating and occasional loads together, snubbers locked where they are, less OPE."""
-        own, snubbed = self._key(about)
+        own, _ = self._key(about)
         if (self._hot(case) or own) != own:
             return self._refused(case, about, f"E=HOT with NONLINEAR, but {about.name} is not hot")
-        locks = _locks(case)
-        if snubbed and not locks:
-            text = f"SNUBBERS=FREE with NONLINEAR, but {about.name} holds them"
-            return self._refused(case, about, text)
-        structure = self.run.structure_of(own, snubbed=locks)
+        structure = self.run.structure_of(own, snubbed=True)
         question = self.run.question(case, structure.system)
         origin = self.run.ended[about.name]
         assert origin.loads is not None
         both = _together(origin.loads, origin.lock, question.loads)
-        loads, start = go_on(self.run.system, structure, origin, both, locked=locks)
+        loads, start = go_on(self.run.system, structure, origin, both, locked=True)
         whole = replace(question, name=f"{about.name} + {case.name}", loads=loads)
         total, _ = answer(structure, whole, start)
         if total.state is None:
@@ -150,11 +148,6 @@ class LockedPass:
         result.text = f"{case_text(case)} ABOUT={about.name} NONLINEAR"
         result.warnings += total.warnings
         return result
-
-
-def _locks(case: Case) -> bool:
-    """Whether snubbers hold in a locked case: about another case, unless its card says else."""
-    return case.snubbers == "LOCKED" if case.snubbers else case.about is not None
 
 
 def _together(a: Loads, lock: F8 | None, more: Loads) -> Loads:

@@ -496,7 +496,7 @@ def test_it_is_cheap(n, seconds):
     line = rack(n)
     times = []
     for _ in range(15 if n == 1000 else 3):
-        start = time.perf_counter()
+        start = time.process_time()
         check(*line)
-        times.append(time.perf_counter() - start)
+        times.append(time.process_time() - start)
     assert min(times) < 3 * seconds  # a shared machine; measured 0.9 ms and 0.1 s

@@ -46,7 +46,8 @@ def test_examples_of_the_table_make_a_deck():
 
 def test_example_of_the_page_is_a_deck():
     model = read_text(EXAMPLE)
-    assert [case.name for case in model.cases] == ["SUS", "OPE", "EXP"]
+    assert [case.name for case in model.cases] == ["SUS", "OPE", "EXP", "HSUS", "EQX", "OCC"]
+    assert model.modal.about == model.cycles[0].cases[0] == "OPE"
     assert read_text(model.deck()) == model
 
 

@@ -1,6 +1,6 @@
 """Decks of published problems, solved once each, and their answers by label."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 
@@ -8,10 +8,15 @@ import numpy as np
 import pytest
 
 import trunnion
-from trunnion.arrays import OPEN, CaseResult, Results
+from trunnion.arrays import OPEN, CaseResult, ModeSet, Results, System
 from trunnion.interior import points
+from trunnion.masses import model_masses
 from trunnion.model import Model
+from trunnion.solver.ledger import Ledger
+from trunnion.solver.modal import modes_of
+from trunnion.spectrumcase import SpectrumPass
 from trunnion.supports import card_forces
+from trunnion.system import build_system
 
 MODELS = Path(__file__).parents[2] / "models"
 
@@ -160,3 +165,64 @@ def solve():
 def answer():
     """Give the numbers of a case by label."""
     return Answer
+
+
+INCH, POUND = 0.0254, 4.4482216152605
+COMPONENTS = ("UX", "UY", "UZ", "RX", "RY", "RZ")
+
+
+@dataclass(frozen=True)
+class Shaken:
+    """Modes of a deck and its spectrum cases, in inches and pounds."""
+
+    model: Model
+    system: System
+    modes: ModeSet
+    cases: dict[str, CaseResult]
+
+    def node(self, label: str) -> int:
+        """Number of a node."""
+        found = self.system.alias.get(label)
+        return self.system.labels.index(label) if found is None else found
+
+    def movement(self, case: str, label: str, component: str) -> float:
+        """Largest displacement [in, rad]."""
+        i = COMPONENTS.index(component)
+        u = float(self.cases[case].state.u[self.node(label), i])
+        return u / INCH if i < 3 else u
+
+    def end(self, case: str, start: str, end: str, at: int) -> np.ndarray:
+        """N Vy Vz T My Mz at end 0 or 1 of an element, in the axes of that end [lbf, in lbf]."""
+        pair = [self.node(start), self.node(end)]
+        force = self.cases[case].gathered.local_force[self.system.ends.tolist().index(pair), at]
+        return force / (POUND * np.array([1.0, 1.0, 1.0, INCH, INCH, INCH]))
+
+    def reaction(self, case: str, label: str, direction: str) -> float:
+        """Load of a support [lbf]."""
+        at = [card.label for card in self.system.cards].index(label)
+        return float(self.cases[case].gathered.card_force[at, "XYZ".index(direction)] / POUND)
+
+
+def _shake(model: Model) -> Shaken:
+    """Modes and spectrum cases of a model whose supports all hold both ways."""
+    system = build_system(model)
+    modes, pencil = modes_of(system, model_masses(model, system), model.modal, Ledger())
+    spectra = SpectrumPass(model, system, modes, pencil)
+    return Shaken(model, system, modes, {case.name: spectra.solve(case) for case in model.cases})
+
+
+@cache
+def _shaken(name: str) -> Shaken:
+    return _shake(_read(name))
+
+
+@pytest.fixture(scope="session")
+def shake():
+    """Find the modes of a model and solve its spectrum cases."""
+    return _shake
+
+
+@pytest.fixture(scope="session")
+def shaken():
+    """Give modes and spectrum cases of a deck of models/ by name."""
+    return _shaken

@@ -59,3 +59,20 @@ def test_aitken_jumps_are_needed(deck):
     rack = rack_model(read_rack(ROOT / "tests/data/rack_50.json.gz"), "fric1")
     jumps["rack_50"] = trunnion.solve(by_status(rack))["FRIC1"].work.get("aitken", 0)
     assert sum(n > 0 for n in jumps.values()) >= 2, jumps
+
+
+def test_ramps_after_a_failed_status_step_are_bounded(deck, monkeypatch):
+    """Seven ramps of 200 000 passes a sub-step took hours to say that a case does not settle."""
+    from trunnion.solver import steps
+
+    asked, true = [], steps.solve_status
+
+    def hasty(*args, passes=None):
+        asked.append(passes)
+        return true(*args, passes=1)
+
+    monkeypatch.setattr(steps, "solve_status", hasty)
+    case = trunnion.solve(by_status(deck("sliding_line")))["OPE"]
+    assert not case.converged
+    assert asked[-1] == steps.LAST_PASSES
+    assert asked.count(None) == 2  # the first step of each case alone runs its full length

@@ -576,6 +576,8 @@ TABLE: tuple[Keyword, ...] = (
             "state of a case, snubbers locked, friction left out: an increment about it. ON is "
             "the same for a total, snubbers free (hot sustained). One of the three, and of a CASE "
             "that has a contact state of its own: no COMB, and no case with ABOUT or ON.",
+            "A case with ABOUT or ON has the modulus of that case; E=HOT takes the hot one. "
+            "SNUBBERS=LOCKED after FROM locks snubbers where that case left the pipe.",
             "U and WIND are for cases with ABOUT; without it SNUBBERS=FREE or LOCKED must say "
             "what snubbers do.",
             "A response spectrum case is a sum of SPECTRUM(name,X[,factor[,group]]) for the "

@@ -54,10 +54,16 @@ BEND     30      R=381
 PIPE     30 40   DZ=4000
 SUPPORT  40      +Y
 SUPPORT  30M     +Y K=2kN/mm
+SNUBBER  40      X                  ! lets the pipe grow, holds it in an earthquake
 
 CASE SUS = W + P1
 CASE OPE = W + P1 + T1
 COMB EXP = OPE - SUS
+CASE HSUS = W + P1               ON=OPE
+CASE EQX = U(0.3,0,0)            ABOUT=OPE
+COMB OCC = ABS(SUS) + ABS(EQX)
+CYCLE HEAT = OPE, SUS            TIMES=4
+MODES 12 ABOUT=OPE
 """
 
 
@@ -85,6 +91,7 @@ def _form(keyword: Keyword) -> str:
         words = ["text" if keyword.name == "TITLE" else "file"]
     if keyword.keys:
         words.append("KEY=VALUE ...")
+    words += [f"[{flag}]" for flag, _ in keyword.flags]
     return " ".join([keyword.name, *words])
 
 
@@ -104,7 +111,8 @@ def _card(keyword: Keyword) -> Iterator[str]:
     if keyword.positionals and keyword.form != "equation":
         yield ""
         for positional in keyword.positionals:
-            yield f"- `{positional.name}`: {positional.meaning}"
+            unit = positional.dimension if positional.kind == "number" else ""
+            yield f"- `{positional.name}`: {positional.meaning}{f' ({unit})' if unit else ''}"
     if keyword.keys:
         yield ""
         yield "| key | meaning | dimension or choices | without it |"
@@ -116,6 +124,8 @@ def _card(keyword: Keyword) -> Iterator[str]:
                 names = f"`{key.name}=` to `{key.name[0]}9=`"
                 meaning = key.meaning.replace(f"set {key.name}", "that set")
                 yield f"| {names} | {meaning} | {_values(key)} | {_without(key)} |"
+        for flag, meaning in keyword.flags:
+            yield f"| `{flag}` | {meaning} | no value | |"
 
 
 def _values(key: Key) -> str:
@@ -124,6 +134,8 @@ def _values(key: Key) -> str:
         return " ".join(key.choices)
     words = {"gap": "length or angle", "vector": "(a,b,c)", "along": "pipe a-b", "node": "node"}
     text = words.get(key.kind, key.kind)
+    if key.kind == "pairs":
+        return f"({key.dimension.replace(', ', ',')}),(...) ..."
     if key.kind == "number":
         text = key.dimension or "stiffness or rotational stiffness"
     bounds = "" if key.bounds is ANY else f", {key.bounds}"

@@ -30,7 +30,7 @@ def verdict(cycle: CycleResult) -> str:
     if not np.isfinite(cycle.change):
         return f"{loops}: only from the second on can a loop be seen to repeat"
     word = "the loop repeats" if cycle.repeats else "the loop does not repeat"
-    return f"{loops}, {word}: support loads changed by {cycle.change:.1e} of the largest"
+    return f"{loops}, {word}: loads and movements changed by {cycle.change:.1e} of the largest"
 
 
 def cycle_warnings(results: Results) -> list[str]:

@@ -18,6 +18,7 @@ from trunnion.solver.structure import Forcing, Point, Sliding, Structure
 from trunnion.solver.verdict import Reported, report_numbers
 
 PENALTY_WARNING = 1e-3
+LARGE_TURN = 0.1  # rad; beyond it small-rotation theory is off by about half a per cent
 FREEDOMS = ("X", "Y", "Z", "RX", "RY", "RZ")
 
 
@@ -166,6 +167,12 @@ def _remarks(structure: Structure, reported: Reported) -> tuple[str, ...]:
     if effect > PENALTY_WARNING:
         remarks.append(
             f"rigid supports would change the answer by {100 * effect:.2g} % (penalty effect)"
+        )
+    turn = np.abs(reported.state.u[:, 3:])
+    if turn.size and turn.max() > LARGE_TURN:
+        node = structure.system.labels[int(turn.max(axis=1).argmax())]
+        remarks.append(
+            f"node {node} turns by {turn.max():.3g} rad: beyond the theory of small rotations"
         )
     held = structure.held
     if reported.singular and held is not None:

@@ -56,7 +56,7 @@ def many(pencil: Pencil, k: int, known: F8) -> tuple[F8, F8]:
         sigma=-pencil.shift,
         OPinv=LinearOperator((n, n), matvec=solve, dtype=np.float64),
         v0=solve(pencil.mass_product(start[None])[0]),
-        ncv=min(n, max(2 * missing + 1, 24)),
+        ncv=min(n, 3 * missing + 20),
         tol=1e-11,
         maxiter=1000,
         **more,

@@ -61,7 +61,8 @@ def solve_case(
         solved = _step(structure, point, law, start, target, solve, plan, history, capacity)
         if not solved.settled:
             break
-        law = replace(solved.sliding, datum=commit(law.datum, law.kf, solved.response))
+        datum = commit(solved.sliding.datum, law.kf, solved.response)  # of the last sub-step
+        law = replace(solved.sliding, datum=datum)
         capacity = law.mu * solved.response.normal
         start = target
     assert solved is not None
