@@ -20,6 +20,7 @@ from trunnion.solver.structure import Forcing, Point, Response, Sliding, Structu
 STEPS = 40
 PARTS = (1.0, 0.5, 0.25, 0.1, 0.03, 0.01)  # of a step, tried in turn
 FALL = 0.2  # of the part: how much of the error a step must take away
+MEAN = 0.3  # part of a step that is taken blindly
 SHARP = 1e-3  # out-of-balance force of an inner answer, of the error it is to show
 
 
@@ -51,6 +52,21 @@ def settle(
                 sliding.capacity = law.capacity
                 return outcome.response
     return None
+
+
+def average(
+    structure: Structure,
+    point: Point,
+    sliding: Sliding,
+    forcing: Forcing,
+    history: History,
+    response: Response,
+) -> Response:
+    """Go a part of the way to mu N whatever the error does: out of a dead end of `settle`."""
+    error = sliding.mu * response.normal - sliding.capacity
+    sliding.capacity = np.maximum(sliding.capacity + MEAN * error, 0.0)
+    size = float(np.abs(error).max())
+    return _inner(structure, point, sliding, forcing, history, size).response
 
 
 def _inner(

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from trunnion.arrays import F8
-from trunnion.solver.capacities import STEPS, settle
+from trunnion.solver.capacities import STEPS, average, settle
 from trunnion.solver.coupled import coupled_step
 from trunnion.solver.history import History
 from trunnion.solver.newton import FULL_STEPS, Outcome, relax, tangent_factor
@@ -22,6 +22,7 @@ STIFFEN = 10.0  # factor of the stick stiffness from stage to stage
 LOOSE, CLOSE = 0.3, 3e-3  # out-of-balance force of a stage and of a renewal, of the capacity
 RENEWALS = 40
 PROGRESS, STALLED = 0.8, 4  # a renewal that gains less stalls; so many in a row end the plain way
+BLIND = 6  # averaged steps where no part of a damped one helps
 COUPLED = 12  # consistent steps in a row
 STICKY = 1e300  # a capacity that is never reached
 
@@ -185,11 +186,12 @@ def damped(
     response: Response,
 ) -> Solved:
     """Renew by damped steps, each followed by a try of the coupled law."""
-    taken = 0
+    taken = blind = 0
     for _ in range(STEPS):
-        better = settle(structure, point, sliding, forcing, history, response)
+        better = None if blind else settle(structure, point, sliding, forcing, history, response)
         if better is None:
-            break
+            blind = (blind + 1) % BLIND
+            better = average(structure, point, sliding, forcing, history, response)
         response, taken = better, taken + 1
         coupled = finish(structure, point, sliding, forcing, history)
         if coupled is not None:

@@ -20,7 +20,7 @@ from trunnion.solver.history import History
 from trunnion.solver.newton import RUNAWAY, tangent_factor
 from trunnion.solver.structure import Forcing, Point, Response, Sliding, Structure
 
-PASSES = 20_000
+PASSES = 10_000
 TIGHT = 1e-13  # remaining change of displacements that ends the iteration, relative
 REVERSALS = 5  # a contact that turns more often without a calm stretch is frozen engaged
 CHATTER = 2  # turns of one contact after which passes are searched, not taken whole

@@ -15,7 +15,7 @@ from trunnion.solver.verdict import commit
 
 RAMPS = (2, 4, 8, 16, 32, 64)
 EVENTS = 200  # closings located in one step, at most
-LAST_PASSES = 3000  # of the status iteration where one step has failed
+LAST_PASSES = 1500  # of the status iteration where one step has failed
 LOCATED = 1e-12  # of the size of the model: an opening at which a closing counts as found
 
 Step = Callable[[Structure, Point, Sliding, Forcing, History], Solved]
