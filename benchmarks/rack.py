@@ -23,8 +23,8 @@ from typing import Any
 import numpy as np
 
 import trunnion
-from trunnion.analysis import solve_system
 from trunnion.arrays import CaseResult, Results
+from trunnion.cases.analysis import solve_system
 from trunnion.loads import case_loads
 from trunnion.model import (
     Case,

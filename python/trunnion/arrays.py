@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
-    from trunnion.tables import Table
+    from trunnion.results.tables import Table
 
 F8 = NDArray[np.float64]
 I4 = NDArray[np.int32]
@@ -319,14 +319,14 @@ class CycleResult:
     @property
     def support_ranges(self) -> "Table":
         """Ranges of support loads over the loop and in one shot, with their ratio."""
-        from trunnion.tables import support_ranges
+        from trunnion.results.tables import support_ranges
 
         return support_ranges(self)
 
     @property
     def element_ranges(self) -> "Table":
         """Ranges of end forces over the loop and in one shot, with their ratio."""
-        from trunnion.tables import element_ranges
+        from trunnion.results.tables import element_ranges
 
         return element_ranges(self)
 
@@ -364,28 +364,28 @@ class CaseResult:
     @property
     def displacements(self) -> "Table":
         """Displacements by node label."""
-        from trunnion.tables import displacements
+        from trunnion.results.tables import displacements
 
         return displacements(self)
 
     @property
     def supports(self) -> "Table":
         """Support forces on the pipe and states, by node label."""
-        from trunnion.tables import supports
+        from trunnion.results.tables import supports
 
         return supports(self)
 
     @property
     def elements(self) -> "Table":
         """End forces on the elements, by name (10-20)."""
-        from trunnion.tables import elements
+        from trunnion.results.tables import elements
 
         return elements(self)
 
     @property
     def stresses(self) -> "Table":
         """Nominal stresses at the ends of pipes, by name (10-20)."""
-        from trunnion.tables import stresses
+        from trunnion.results.tables import stresses
 
         return stresses(self)
 
@@ -425,7 +425,7 @@ class ModeSet:
     @property
     def table(self) -> "Table":
         """Frequencies, participation and effective mass by number of the mode."""
-        from trunnion.tables import modes
+        from trunnion.results.tables import modes
 
         return modes(self)
 
@@ -454,6 +454,6 @@ class Results:
     @property
     def envelope(self) -> "Table":
         """Largest and smallest load of every support over all cases, and the cases' names."""
-        from trunnion.tables import envelope
+        from trunnion.results.tables import envelope
 
         return envelope(self)

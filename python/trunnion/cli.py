@@ -68,7 +68,7 @@ def run(deck: Path, folder: Path, h5: bool, timings: bool) -> int:
 @DECK
 def check(deck: Path) -> int:
     """Read DECK, look for mechanisms and missing loads; solve and write nothing."""
-    from trunnion.default_cases import with_cases
+    from trunnion.cases.default_cases import with_cases
     from trunnion.loads import case_loads, load_sets
     from trunnion.model import Case
     from trunnion.system import build_system

@@ -5,9 +5,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from trunnion.arrays import OPEN, CaseResult
-from trunnion.bends import find_legs
 from trunnion.model import Direction, Model, Node, Pipe, Support
-from trunnion.supports import card_forces
+from trunnion.results.supports import card_forces
+from trunnion.system.bends import find_legs
 
 AXES = dict(zip("XYZ", np.eye(3), strict=True))
 

@@ -108,7 +108,7 @@ def scene(model):
 @pytest.fixture
 def results(scene):
     """One solved case, one that did not converge, one combination."""
-    from trunnion.combine import combine
+    from trunnion.results.combine import combine
 
     model, system, loads, state = scene
     good = Certificate(True, 2e-15, "friction at rest 30", (Item("friction", 2e-15, "rest 30"),))

@@ -5,8 +5,8 @@ import random
 import numpy as np
 import pytest
 
-from trunnion.combine import Numbers, evaluate, is_linear, parents
 from trunnion.deck.expressions import format_expression, parse
+from trunnion.results.combine import Numbers, evaluate, is_linear, parents
 
 SEED = 31
 NAMES = ("A", "B", "C")

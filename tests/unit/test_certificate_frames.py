@@ -10,9 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from trunnion import deformation
 from trunnion.arrays import BOTH, Card, Contacts, Loads, Part, Sliders, State, System
-from trunnion.certificate import certify
+from trunnion.certificate import certify, deformation
 
 LD = np.longdouble
 PIPE = (1.6e9, 1.05e7, 1.37e7, 3.1e8)

@@ -18,9 +18,9 @@ from trunnion.arrays import (
     no_contacts,
     no_sliders,
 )
-from trunnion.combine import combine, evaluate, is_linear, parents
 from trunnion.model import Comb
-from trunnion.supports import gathered
+from trunnion.results.combine import combine, evaluate, is_linear, parents
+from trunnion.results.supports import gathered
 
 I4 = np.int32
 

@@ -5,9 +5,9 @@ import pytest
 
 import trunnion
 from trunnion.arrays import OPEN
-from trunnion.balance import local_end_forces
 from trunnion.deck.reader import read_text
-from trunnion.supports import gathered
+from trunnion.results.balance import local_end_forces
+from trunnion.results.supports import gathered
 
 DECK = """\
 DEFAULT MU=0.3

@@ -3,9 +3,9 @@
 import pytest
 
 import trunnion
+from trunnion.cases.default_cases import default_cases, with_cases
 from trunnion.deck.expressions import format_case, parse
 from trunnion.deck.reader import read_text
-from trunnion.default_cases import default_cases, with_cases
 from trunnion.model import Comb
 from trunnion.report import write_reports
 

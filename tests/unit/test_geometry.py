@@ -4,10 +4,10 @@ import math
 
 import pytest
 
-from trunnion.bends import flexibility, nominal_diameter
 from trunnion.errors import ModelError
-from trunnion.geometry import Geometry, place
 from trunnion.model import Bend, Material, Model, Node, Pipe, Place, Section, Spring, Support
+from trunnion.system.bends import flexibility, nominal_diameter
+from trunnion.system.geometry import Geometry, place
 
 STEEL = Material("A", 203e9, 0.3, 11.7e-6, 7850.0)
 HDR = Section("S", 0.2731, 0.00927)

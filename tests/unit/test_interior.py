@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from trunnion import deformation
 from trunnion.arrays import (
     ARC,
     SPRING,
@@ -16,7 +15,8 @@ from trunnion.arrays import (
     State,
     System,
 )
-from trunnion.interior import extreme_deflections, mid_of_bend, points, stations
+from trunnion.certificate import deformation
+from trunnion.results.interior import extreme_deflections, mid_of_bend, points, stations
 
 I4 = np.int32
 EA, GJ, EI, GAS = 1.6e9, 1.05e7, 1.37e7, 3.1e8

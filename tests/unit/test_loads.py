@@ -8,8 +8,8 @@ import pytest
 
 from trunnion.arrays import ARC, Loads, System
 from trunnion.errors import ModelError
-from trunnion.expansion import free_strain
 from trunnion.loads import case_loads, case_warnings, load_sets
+from trunnion.loads.expansion import free_strain
 from trunnion.model import (
     Acceleration,
     Bend,

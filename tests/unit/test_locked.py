@@ -10,7 +10,7 @@ import trunnion
 from trunnion.arrays import SLIP
 from trunnion.certificate import certify
 from trunnion.deck.reader import read_text
-from trunnion.supports import card_forces
+from trunnion.results.supports import card_forces
 
 E, OD, WALL, K = 200e9, 0.2731, 0.0093, 1e12
 BORE = OD - 2 * WALL

@@ -4,8 +4,8 @@ from itertools import pairwise
 
 import pytest
 
-from trunnion.materials import GRADES, library_material
-from trunnion.names import UnknownName
+from trunnion.library.materials import GRADES, library_material
+from trunnion.library.names import UnknownName
 
 
 def at(grade, fahrenheit):

@@ -9,7 +9,7 @@ import trunnion
 from trunnion.arrays import no_contacts
 from trunnion.deck.reader import read_text
 from trunnion.errors import ModelError
-from trunnion.masses import model_masses
+from trunnion.loads.masses import model_masses
 from trunnion.model import Modes
 from trunnion.solver import eigen, modes, pencil
 from trunnion.solver.ledger import Ledger

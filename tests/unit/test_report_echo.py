@@ -67,7 +67,7 @@ def test_groups_modes_cycles_and_how_a_spectrum_case_combines(echo):
 
 
 def test_json_has_the_winds_with_their_model():
-    from trunnion.analysis import solve
+    from trunnion.cases.analysis import solve
     from trunnion.report.json import json_report
 
     model = read_text(

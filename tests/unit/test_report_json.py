@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from trunnion.arrays import Results
-from trunnion.balance import end_axes, local_forces
 from trunnion.report.json import json_report
+from trunnion.results.balance import end_axes, local_forces
 
 P, Q, MU = 9000.0, 4000.0, 0.3
 

@@ -12,7 +12,7 @@ import pytest
 import trunnion
 from trunnion.arrays import no_contacts
 from trunnion.deck.reader import read_text
-from trunnion.masses import model_masses
+from trunnion.loads.masses import model_masses
 from trunnion.model import Modes
 from trunnion.report.json import json_report
 from trunnion.report.screen import screen

@@ -13,7 +13,7 @@ from trunnion.deck.reader import read_text
 from trunnion.report.json import json_report
 from trunnion.report.screen import screen
 from trunnion.report.text import text_report
-from trunnion.supports import card_forces, card_loads
+from trunnion.results.supports import card_forces, card_loads
 
 DECK = """\
 TITLE    A line with snubbers

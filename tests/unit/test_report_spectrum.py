@@ -8,17 +8,17 @@ import numpy as np
 import pytest
 
 import trunnion
-from trunnion.combine import combine
+from trunnion.cases.spectrumcase import SpectrumPass
 from trunnion.deck.reader import read_text
-from trunnion.masses import model_masses
+from trunnion.loads.masses import model_masses
 from trunnion.report.hdf5 import hdf5_report
 from trunnion.report.json import json_report
 from trunnion.report.text import text_report
+from trunnion.results.combine import combine
+from trunnion.results.supports import card_forces, card_loads
 from trunnion.solver.ledger import Ledger
 from trunnion.solver.locked import frozen_system
 from trunnion.solver.modal import modes_of
-from trunnion.spectrumcase import SpectrumPass
-from trunnion.supports import card_forces, card_loads
 
 DECK = """\
 TITLE    A skew line with a snubber

@@ -2,8 +2,8 @@
 
 import pytest
 
-from trunnion.names import UnknownName
-from trunnion.sections import SCHEDULES, nominal_inches, pipe_size
+from trunnion.library.names import UnknownName
+from trunnion.library.sections import SCHEDULES, nominal_inches, pipe_size
 
 
 @pytest.mark.parametrize(
@@ -29,7 +29,7 @@ def test_dn_names_the_same_pipe_as_nps():
 def test_every_size_of_the_package_has_a_dn():
     from fluids.piping import schedule_lookup
 
-    from trunnion.sections import _INCHES
+    from trunnion.library.sections import _INCHES
 
     for schedule in SCHEDULES:
         assert set(schedule_lookup[schedule][0]) <= set(_INCHES.values())

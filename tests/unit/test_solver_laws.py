@@ -13,7 +13,8 @@ from trunnion.deck.reader import read_text
 from trunnion.solver.convergence import judge, remaining_change
 from trunnion.solver.coupled import gmres
 from trunnion.solver.ledger import Ledger
-from trunnion.solver.structure import Point, Response, Sliding, Structure
+from trunnion.solver.quantities import Point, Response, Sliding
+from trunnion.solver.structure import Structure
 from trunnion.system import build_system
 
 HEAD = """\

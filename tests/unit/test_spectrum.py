@@ -6,18 +6,18 @@ import numpy as np
 import pytest
 
 from trunnion.arrays import ModeSet
-from trunnion.balance import local_forces
+from trunnion.cases.spectrumcase import SpectrumPass
 from trunnion.deck.reader import read_text
 from trunnion.errors import ModelError
-from trunnion.masses import Masses, model_masses
+from trunnion.loads.masses import Masses, model_masses
 from trunnion.model import Case, Group, Model, Shock, Spectrum, SpectrumUse
+from trunnion.results.balance import local_forces
 from trunnion.solver.ledger import Ledger
 from trunnion.solver.modal import modes_of
 from trunnion.solver.pencil import Pencil
 from trunnion.solver.spectrum import acceleration
 from trunnion.solver.structure import Structure
 from trunnion.solver.supportmotion import hold, influence, moving, participation, recover
-from trunnion.spectrumcase import SpectrumPass
 from trunnion.system import build_system
 
 MASS, L, K = 500.0, 4.0, 1e12

@@ -17,7 +17,7 @@ from trunnion.arrays import (
     State,
     System,
 )
-from trunnion.stresses import end_stresses, mid_stresses, pipe_stresses
+from trunnion.results.stresses import end_stresses, mid_stresses, pipe_stresses
 
 # Code_Aster SSLL106 (astest, analytic references): straight pipe
 OD, WALL = 0.08, 0.008

@@ -27,9 +27,9 @@ from trunnion.model import (
     Support,
     TablePoint,
 )
-from trunnion.structure import branch_name, branches, line_of, moving_part
 from trunnion.system import build_system, hot_system
-from trunnion.vectors import upright
+from trunnion.system.lines import branch_name, branches, line_of, moving_part
+from trunnion.system.vectors import upright
 
 STEEL = Material("A", 203e9, 0.3, 11.7e-6, 7850.0)
 HDR = Section("S", 0.2731, 0.00927)

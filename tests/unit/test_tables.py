@@ -2,7 +2,7 @@
 
 import pytest
 
-from trunnion.names import UnknownName
+from trunnion.library.names import UnknownName
 
 
 def test_rows_are_found_by_label(results):

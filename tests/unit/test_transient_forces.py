@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from trunnion.transient_forces import (
+from trunnion.loads.transient_forces import (
     dynamic_load_factor,
     gas_exit,
     installation_period,

@@ -8,9 +8,10 @@ import pytest
 
 import trunnion
 from trunnion.arrays import ARC, System
-from trunnion.asce7 import exposure_coefficient, exposure_integral
 from trunnion.errors import ModelError
 from trunnion.loads import case_loads, case_warnings, load_sets
+from trunnion.loads.asce7 import exposure_coefficient, exposure_integral
+from trunnion.loads.wind import WindLoad, pressure_of, wind_load
 from trunnion.model import (
     Bend,
     Case,
@@ -29,7 +30,6 @@ from trunnion.model import (
 from trunnion.report.units import report_units
 from trunnion.report.winds import wind_echo
 from trunnion.system import build_system
-from trunnion.wind import WindLoad, pressure_of, wind_load
 
 STEEL = Material("A", 203e9, 0.3, 12e-6, 7850.0)
 COVERED = Section("S", 0.3, 0.01, insulation=0.05)  # 0.4 m wide

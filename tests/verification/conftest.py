@@ -9,9 +9,9 @@ import pytest
 
 import trunnion
 from trunnion.arrays import OPEN, CaseResult, ModeSet, Results, System
-from trunnion.interior import points
 from trunnion.model import Model
-from trunnion.supports import card_forces
+from trunnion.results.interior import points
+from trunnion.results.supports import card_forces
 
 MODELS = Path(__file__).parents[2] / "models"
 

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from trunnion.stresses import end_stresses
+from trunnion.results.stresses import end_stresses
 
 LBF = 4.4482216152605
 INCH = 0.0254

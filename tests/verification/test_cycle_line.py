@@ -7,7 +7,7 @@ import pytest
 
 import trunnion
 from trunnion.deck.reader import read_text
-from trunnion.supports import card_forces
+from trunnion.results.supports import card_forces
 
 F = 10 * 0.3 * 24357.1
 

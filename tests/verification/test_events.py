@@ -11,7 +11,7 @@ import pytest
 
 from trunnion import solve
 from trunnion.deck.reader import read_text
-from trunnion.supports import card_forces
+from trunnion.results.supports import card_forces
 
 P, T, L, GAP, MU, KF = 1000.0, 50e3, 3.0, 3e-3, 0.3, 1e8
 BORE = 0.1143 - 2 * 0.00602

@@ -106,7 +106,7 @@ def breaks(case):
 
 def snubbers(case):
     """Force of every snubber on the pipe."""
-    from trunnion.supports import card_forces
+    from trunnion.results.supports import card_forces
 
     forces = card_forces(case.result)[:, :3]
     cards = enumerate(case.system.cards)

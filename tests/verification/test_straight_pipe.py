@@ -13,7 +13,7 @@ from math import pi
 import numpy as np
 import pytest
 
-from trunnion.stresses import end_stresses
+from trunnion.results.stresses import end_stresses
 
 DX, DY, DZ, RX, RY, RZ = range(6)
 PRINTED = {

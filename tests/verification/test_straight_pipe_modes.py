@@ -11,7 +11,7 @@ from math import pi
 import numpy as np
 import pytest
 
-from trunnion.masses import model_masses
+from trunnion.loads.masses import model_masses
 from trunnion.model import Modes
 from trunnion.solver.ledger import Ledger
 from trunnion.solver.modal import modes_of

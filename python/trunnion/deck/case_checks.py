@@ -3,10 +3,10 @@
 from collections.abc import Iterator, Set
 from typing import NamedTuple
 
+from trunnion.cases.default_cases import with_cases
 from trunnion.deck import expressions as ex
 from trunnion.deck.record import Fault, Mark
 from trunnion.deck.values import nearest
-from trunnion.default_cases import with_cases
 from trunnion.model import Case, Comb, Cycle, Model, Place
 
 Named = Case | Comb | Cycle

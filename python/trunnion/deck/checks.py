@@ -2,11 +2,11 @@
 
 from collections.abc import Iterator, Set
 
-from trunnion.checks import known_labels
 from trunnion.deck.case_checks import check_cases
 from trunnion.deck.record import Fault, Mark
 from trunnion.deck.values import nearest
 from trunnion.model import Bend, Model, Pipe, Place, Support
+from trunnion.system.checks import known_labels
 
 
 def check(model: Model, broken: Set[str] = frozenset()) -> list[Fault]:

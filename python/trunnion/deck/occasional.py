@@ -5,8 +5,8 @@ from typing import Any
 
 from trunnion.deck.context import Context
 from trunnion.deck.record import Record
+from trunnion.loads.wind import pressure_of
 from trunnion.model import Snow, Wind
-from trunnion.wind import pressure_of
 
 _SOURCES = ("PRESSURE", "VELOCITY", "ASCE7")
 _ASCE7 = ("EXPOSURE", "KZT", "KD", "GUST")

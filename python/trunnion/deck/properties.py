@@ -7,8 +7,8 @@ from trunnion.deck.context import Context
 from trunnion.deck.keywords import PRESSURE_SETS, TEMPERATURE_SETS
 from trunnion.deck.record import Record
 from trunnion.deck.values import nearest
+from trunnion.library.names import UnknownName
 from trunnion.model import Material, Operation, Section, TablePoint
-from trunnion.names import UnknownName
 
 
 def title(run: Context, record: Record) -> None:
@@ -58,7 +58,7 @@ def material(run: Context, record: Record) -> None:
 
 def graded(name: str, keys: dict[str, Any]) -> Material:
     """Take a material from the library; keys of the card come before the library's values."""
-    from trunnion.materials import library_material
+    from trunnion.library.materials import library_material
 
     found = library_material(keys["GRADE"])
     return replace(
@@ -176,7 +176,7 @@ def _size(run: Context, record: Record) -> tuple[float, float] | None:
 
 def _standard_size(run: Context, record: Record) -> tuple[float, float] | None:
     """Outside diameter and wall from the tables of pipe sizes."""
-    from trunnion.sections import nominal_inches, pipe_size
+    from trunnion.library.sections import nominal_inches, pipe_size
 
     nps, dn = record.keys.get("NPS"), record.keys.get("DN")
     size = "NPS=" if nps else "DN="

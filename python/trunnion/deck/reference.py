@@ -8,9 +8,9 @@ from collections.abc import Iterator
 from trunnion.deck import units as un
 from trunnion.deck.cards import MAX_BYTES, MAX_CARD, MAX_DEPTH, MAX_LINE
 from trunnion.deck.keywords import ANY, PRESSURE_SETS, TABLE, TEMPERATURE_SETS, Key, Keyword
-from trunnion.materials import GRADES
+from trunnion.library.materials import GRADES
+from trunnion.library.sections import SCHEDULES
 from trunnion.model import Units
-from trunnion.sections import SCHEDULES
 
 _INTRODUCTION = f"""# The deck
 

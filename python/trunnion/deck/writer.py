@@ -17,6 +17,7 @@ from trunnion.deck.keywords import KEYWORDS
 from trunnion.deck.properties import graded
 from trunnion.deck.reader import read_text
 from trunnion.errors import DeckError, ModelError, Problem
+from trunnion.library.names import UnknownName
 from trunnion.model import (
     INFINITE,
     Bend,
@@ -28,7 +29,6 @@ from trunnion.model import (
     Settings,
     Support,
 )
-from trunnion.names import UnknownName
 
 _WIDTH = 100
 

@@ -3,10 +3,10 @@
 import numpy as np
 
 from trunnion.arrays import F8, CaseResult
-from trunnion.balance import local_end_forces
 from trunnion.report.columns import Column, numbers, section, table, words
 from trunnion.report.units import ReportUnits
-from trunnion.supports import solved
+from trunnion.results.balance import local_end_forces
+from trunnion.results.supports import solved
 
 
 def displacement_table(case: CaseResult, units: ReportUnits) -> str:

@@ -6,7 +6,7 @@ from itertools import groupby
 import numpy as np
 
 from trunnion.arrays import ARC, System
-from trunnion.default_cases import with_cases
+from trunnion.cases.default_cases import with_cases
 from trunnion.model import Case, Comb, Model
 from trunnion.report.columns import Column, integers, numbers, plain, section, table, words, wrapped
 from trunnion.report.dynamics import cycle_text, dynamic_echo, spectrum_options

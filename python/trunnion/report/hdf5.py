@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from trunnion.arrays import CaseResult, CycleResult, ModeSet, Results, System
-from trunnion.balance import local_end_forces
 from trunnion.report.loops import step_names
-from trunnion.stresses import end_stresses
-from trunnion.supports import (
+from trunnion.results.balance import local_end_forces
+from trunnion.results.stresses import end_stresses
+from trunnion.results.supports import (
     STATES,
     card_forces,
     card_ids,
@@ -24,7 +24,7 @@ from trunnion.supports import (
     is_good,
     solved,
 )
-from trunnion.tables import element_ids
+from trunnion.results.tables import element_ids
 
 if TYPE_CHECKING:
     import h5py

@@ -9,17 +9,17 @@ from collections.abc import Mapping
 import numpy as np
 
 from trunnion.arrays import F8, CaseResult, Certificate, Results, System
-from trunnion.balance import load_sum, local_end_forces, reaction_sum
-from trunnion.interior import mid_of_bend
 from trunnion.model import Model
 from trunnion.report.encode import dump, finite, lines, listing, records, rows, short, words
 from trunnion.report.json_modes import mode_entries
 from trunnion.report.json_runs import cycle_entries, envelope_entries, frozen_entries
 from trunnion.report.json_supports import support_entries
 from trunnion.report.json_winds import wind_entries
-from trunnion.stresses import end_stresses
-from trunnion.supports import cause_of, is_good, solved
-from trunnion.tables import element_ids
+from trunnion.results.balance import load_sum, local_end_forces, reaction_sum
+from trunnion.results.interior import mid_of_bend
+from trunnion.results.stresses import end_stresses
+from trunnion.results.supports import cause_of, is_good, solved
+from trunnion.results.tables import element_ids
 
 STRESSES = (
     "axial", "pressure", "bending", "shear", "torsion", "longitudinal", "hoop_inner",

@@ -4,7 +4,7 @@ import numpy as np
 
 from trunnion.arrays import ModeSet, System
 from trunnion.report.encode import dump, finite, lines, listing, rows
-from trunnion.tables import mass_percent, period_of
+from trunnion.results.tables import mass_percent, period_of
 
 
 def mode_entries(modes: ModeSet, system: System) -> str:

@@ -6,8 +6,8 @@ from trunnion.arrays import F8, CaseResult, CycleResult, FrozenBreak, Results
 from trunnion.report.encode import dump, finite, lines, listing, records, rows, words
 from trunnion.report.frozen import si_unit
 from trunnion.report.loops import step_names
-from trunnion.supports import card_forces, card_ids, envelope, is_good, range_ratio
-from trunnion.tables import element_ids
+from trunnion.results.supports import card_forces, card_ids, envelope, is_good, range_ratio
+from trunnion.results.tables import element_ids
 
 
 def frozen_entries(case: CaseResult) -> str:

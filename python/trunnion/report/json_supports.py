@@ -13,7 +13,7 @@ import numpy as np
 
 from trunnion.arrays import F8, I4, MINUS, PLUS, CaseResult
 from trunnion.report.encode import listing, numbers, records, rows, words
-from trunnion.supports import (
+from trunnion.results.supports import (
     STATES,
     card_forces,
     card_friction,

@@ -3,10 +3,10 @@
 import numpy as np
 
 from trunnion.arrays import System
+from trunnion.loads.wind import WindLoad, wind_loads
 from trunnion.model import Model
 from trunnion.report.encode import dump, lines, listing, numbers, records, rows, words
-from trunnion.tables import element_ids
-from trunnion.wind import WindLoad, wind_loads
+from trunnion.results.tables import element_ids
 
 
 def wind_entries(model: Model, system: System) -> str:

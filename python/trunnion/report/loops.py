@@ -8,7 +8,7 @@ from trunnion.arrays import F8, CycleResult, Results
 from trunnion.report.answers import largest
 from trunnion.report.columns import Column, headings, numbers, section, words, wrapped
 from trunnion.report.units import ReportUnits
-from trunnion.supports import card_loads, range_ratio
+from trunnion.results.supports import card_loads, range_ratio
 
 HEADS = ("FX", "FY", "FZ", "MX", "MY", "MZ")
 

@@ -5,7 +5,7 @@ import numpy as np
 from trunnion.arrays import ModeSet, Results, System
 from trunnion.report.columns import integers, numbers, plain, section, table, words, wrapped
 from trunnion.report.units import Quantity, ReportUnits
-from trunnion.tables import mass_percent, period_of
+from trunnion.results.tables import mass_percent, period_of
 
 
 def mode_report(modes: ModeSet, system: System, units: ReportUnits) -> str:

@@ -3,11 +3,11 @@
 import numpy as np
 
 from trunnion.arrays import F8, STRAIGHT, CaseResult
-from trunnion.interior import extreme_deflections, mid_points
 from trunnion.report.answers import largest
 from trunnion.report.columns import Column, numbers, plain, section, table, words
 from trunnion.report.units import ReportUnits
-from trunnion.stresses import Stresses, end_stresses, mid_stresses
+from trunnion.results.interior import extreme_deflections, mid_points
+from trunnion.results.stresses import Stresses, end_stresses, mid_stresses
 
 SAGS = 20  # spans printed, the deepest first
 HEADS = {

@@ -6,11 +6,11 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from trunnion.arrays import CaseResult
-from trunnion.balance import load_sum, reaction_sum
 from trunnion.report.answers import largest
 from trunnion.report.columns import Column, integers, numbers, section, table, words, wrapped
 from trunnion.report.units import ReportUnits
-from trunnion.supports import card_forces
+from trunnion.results.balance import load_sum, reaction_sum
+from trunnion.results.supports import card_forces
 
 FIRST, LAST = 8, 16  # iterations printed of a long history
 

@@ -7,7 +7,14 @@ import numpy as np
 from trunnion.arrays import F8, CaseResult
 from trunnion.report.columns import Column, headings, numbers, plain, section, table, words, wrapped
 from trunnion.report.units import ReportUnits
-from trunnion.supports import card_loads, card_nodes, card_states, envelope, solved, without_sign
+from trunnion.results.supports import (
+    card_loads,
+    card_nodes,
+    card_states,
+    envelope,
+    solved,
+    without_sign,
+)
 
 NOTE = "forces and moments ON THE RESTRAINT, global; movements of the pipe at the node"
 COMPONENTS = ("FX", "FY", "FZ", "MX", "MY", "MZ")

@@ -7,7 +7,7 @@ from trunnion.report.loops import cycle_lines, cycle_warnings
 from trunnion.report.modes import mode_lines, mode_warnings
 from trunnion.report.summary import summary_table
 from trunnion.report.units import report_units
-from trunnion.supports import cause_of, is_good
+from trunnion.results.supports import cause_of, is_good
 
 CASES, CAUSES, WARNINGS = 10, 4, 4  # lines of each
 

@@ -8,7 +8,7 @@ from trunnion.arrays import BOTH, F8, I4, MINUS, OPEN, PLUS, CaseResult, Contact
 from trunnion.report.answers import largest
 from trunnion.report.columns import numbers, plain, section, table, words
 from trunnion.report.units import ReportUnits
-from trunnion.supports import FREE, STATES, contact_levels, slider_of, solved
+from trunnion.results.supports import FREE, STATES, contact_levels, slider_of, solved
 
 SIDES = {OPEN: "", MINUS: "-", PLUS: "+", BOTH: "both"}
 SHOWN = ("support", "hanger", "snubber")  # anchors and springs are always engaged

@@ -5,7 +5,7 @@ import numpy as np
 from trunnion.arrays import CaseResult, Results
 from trunnion.report.columns import Column, table, words
 from trunnion.report.units import ReportUnits
-from trunnion.supports import card_forces, is_good, solved
+from trunnion.results.supports import card_forces, is_good, solved
 
 
 def summary_table(results: Results, units: ReportUnits, *, only: list[str] | None = None) -> str:

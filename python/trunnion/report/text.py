@@ -15,7 +15,7 @@ from trunnion.report.restraints import restraint_summary
 from trunnion.report.states import state_table
 from trunnion.report.summary import summary_table
 from trunnion.report.units import ReportUnits, report_units
-from trunnion.supports import cause_of, is_good
+from trunnion.results.supports import cause_of, is_good
 
 CERTIFIED = (
     "Every case shows its certificate, computed from the reported numbers alone: every item is at "

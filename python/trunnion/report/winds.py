@@ -3,11 +3,11 @@
 import numpy as np
 
 from trunnion.arrays import System
-from trunnion.asce7 import FACTOR, GRADIENT, basic_pressure
+from trunnion.loads.asce7 import FACTOR, GRADIENT, basic_pressure
+from trunnion.loads.wind import WindLoad, wind_load
 from trunnion.model import Model, Wind
 from trunnion.report.columns import numbers, plain, section, table, words
 from trunnion.report.units import Quantity, ReportUnits
-from trunnion.wind import WindLoad, wind_load
 
 _MPH = 0.44704  # [m/s]
 _PSF = 47.880259  # [Pa]

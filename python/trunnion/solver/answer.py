@@ -12,9 +12,10 @@ from trunnion.solver.friction import Solved
 from trunnion.solver.history import History
 from trunnion.solver.mechanism import null_motions, structural_motions
 from trunnion.solver.newton import TINY_PIVOT
+from trunnion.solver.quantities import Forcing, Point, Sliding
 from trunnion.solver.status import release
 from trunnion.solver.steps import Origin, Plan, solve_case
-from trunnion.solver.structure import Forcing, Point, Sliding, Structure
+from trunnion.solver.structure import Structure
 from trunnion.solver.verdict import Reported, report_numbers
 
 PENALTY_WARNING = 1e-3

@@ -15,7 +15,8 @@ from trunnion.arrays import F8
 from trunnion.solver.coupled import coupled_step
 from trunnion.solver.history import History
 from trunnion.solver.newton import Outcome, relax, tangent_factor
-from trunnion.solver.structure import Forcing, Point, Response, Sliding, Structure
+from trunnion.solver.quantities import Forcing, Point, Response, Sliding
+from trunnion.solver.structure import Structure
 
 STEPS = 40
 PARTS = (1.0, 0.5, 0.25, 0.1, 0.03, 0.01)  # of a step, tried in turn

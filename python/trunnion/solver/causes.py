@@ -5,7 +5,8 @@ import numpy as np
 from trunnion.solver.friction import Solved, all_stuck
 from trunnion.solver.history import History
 from trunnion.solver.mechanism import motions_at
-from trunnion.solver.structure import Forcing, Point, Sliding, Structure
+from trunnion.solver.quantities import Forcing, Point, Sliding
+from trunnion.solver.structure import Structure
 
 
 def explain(

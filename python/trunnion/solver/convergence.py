@@ -6,7 +6,7 @@ from math import cos, radians
 import numpy as np
 
 from trunnion.arrays import F8
-from trunnion.solver.structure import Response
+from trunnion.solver.quantities import Response
 
 NORMAL = 0.01  # change of a normal force, of itself
 TURN = cos(radians(15.0))  # turn of a sliding direction

@@ -7,7 +7,8 @@ never factored: GMRES on the symmetric factor of K takes a few solves.
 import numpy as np
 
 from trunnion.arrays import F8
-from trunnion.solver.structure import Response, Sliding, Structure
+from trunnion.solver.quantities import Response, Sliding
+from trunnion.solver.structure import Structure
 
 KRYLOV = 60  # most solves of one step
 SHARP = 1e-12  # of the right-hand side

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from trunnion.arrays import F8
 from trunnion.solver.pencil import Pencil
-from trunnion.solver.structure import Point
+from trunnion.solver.quantities import Point
 
 CLUSTER = 1e-7  # relative distance of eigenvalues that are one
 CORRECTIONS = 6

@@ -16,7 +16,8 @@ from trunnion.solver.capacities import STEPS, average, settle
 from trunnion.solver.coupled import coupled_step
 from trunnion.solver.history import History
 from trunnion.solver.newton import FULL_STEPS, Outcome, relax, tangent_factor
-from trunnion.solver.structure import Forcing, Point, Response, Sliding, Structure
+from trunnion.solver.quantities import Forcing, Point, Response, Sliding
+from trunnion.solver.structure import Structure
 
 STIFFEN = 10.0  # factor of the stick stiffness from stage to stage
 LOOSE, CLOSE = 0.3, 3e-3  # out-of-balance force of a stage and of a renewal, of the capacity

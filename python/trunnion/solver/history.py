@@ -2,7 +2,7 @@
 
 from trunnion.arrays import System
 from trunnion.solver.ledger import Ledger
-from trunnion.solver.structure import Response
+from trunnion.solver.quantities import Response
 
 NAMED = 12  # supports named in one entry; the rest are counted
 

@@ -4,7 +4,8 @@ import numpy as np
 
 from trunnion.solver.friction import Solved
 from trunnion.solver.newton import tangent_factor
-from trunnion.solver.structure import Forcing, Point, Sliding, Structure
+from trunnion.solver.quantities import Forcing, Point, Sliding
+from trunnion.solver.structure import Structure
 
 
 def solve_linear(structure: Structure, forcings: list[Forcing]) -> list[tuple[Point, Solved]]:

@@ -6,7 +6,8 @@ import numpy as np
 
 from trunnion.arrays import F8, System
 from trunnion.solver.newton import PROXIMAL
-from trunnion.solver.structure import Point, Response, Sliding, Structure
+from trunnion.solver.quantities import Point, Response, Sliding
+from trunnion.solver.structure import Structure
 
 BLOCK = 8  # vectors iterated together
 ITERATIONS = 12

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from trunnion.arrays import I4, Contacts, ModeSet, State, System
-from trunnion.masses import Masses
+from trunnion.loads.masses import Masses
 from trunnion.model import Modes
 from trunnion.solver.ledger import Ledger
 from trunnion.solver.locked import joined

@@ -13,7 +13,8 @@ import numpy as np
 
 from trunnion.arrays import F8
 from trunnion.solver.history import History
-from trunnion.solver.structure import Forcing, Point, Response, Sliding, Structure
+from trunnion.solver.quantities import Forcing, Point, Response, Sliding
+from trunnion.solver.structure import Structure
 
 FULL_STEPS = 12  # tried before the line search takes over
 CALM = 8  # searched steps without a contact that opens or closes, after which full ones may return

@@ -9,9 +9,10 @@ from numpy.typing import NDArray
 from trunnion import kernels
 from trunnion.arrays import F8
 from trunnion.errors import NotPositiveDefiniteError
-from trunnion.masses import Masses
+from trunnion.loads.masses import Masses
 from trunnion.solver.newton import TINY_PIVOT
-from trunnion.solver.structure import Point, Sliding, Structure
+from trunnion.solver.quantities import Point, Sliding
+from trunnion.solver.structure import Structure
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

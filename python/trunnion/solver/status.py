@@ -18,7 +18,8 @@ from trunnion.solver.convergence import judge
 from trunnion.solver.friction import Solved
 from trunnion.solver.history import History
 from trunnion.solver.newton import RUNAWAY, tangent_factor
-from trunnion.solver.structure import Forcing, Point, Response, Sliding, Structure
+from trunnion.solver.quantities import Forcing, Point, Response, Sliding
+from trunnion.solver.structure import Structure
 
 PASSES = 10_000
 TIGHT = 1e-13  # remaining change of displacements that ends the iteration, relative

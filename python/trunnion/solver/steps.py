@@ -9,8 +9,9 @@ import numpy as np
 from trunnion.arrays import B1, F8, Loads
 from trunnion.solver.friction import Solved, solve_step
 from trunnion.solver.history import History
+from trunnion.solver.quantities import Forcing, Point, Sliding
 from trunnion.solver.status import release, solve_status
-from trunnion.solver.structure import Forcing, Point, Sliding, Structure
+from trunnion.solver.structure import Structure
 from trunnion.solver.verdict import commit
 
 RAMPS = (2, 4, 8, 16, 32, 64)

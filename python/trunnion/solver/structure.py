@@ -1,6 +1,5 @@
 """A system made ready to be solved: kernel arrays, linear stiffness, its factor, residuals."""
 
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -11,93 +10,7 @@ from trunnion.errors import NotPositiveDefiniteError
 from trunnion.solver.inert import contacts_of, sliders_of
 from trunnion.solver.ledger import Ledger
 from trunnion.solver.pattern import build_pattern
-
-
-@dataclass(frozen=True, slots=True)
-class Forcing:
-    """Loads as the kernels take them; linear, so that steps are mixtures of two.
-
-    free : (n_elem, 6) free tip deformation, element axes [m, rad].
-    resultant : (n_elem, 6) of the distributed load, about end 1 [N, N m].
-    nodal : (n_node, 6).
-    base : (n_contact, 3), slider_base : (n_slider, 3) movement under the supports.
-    preload : (n_contact, 3) cold loads of hangers on the pipe [N].
-    """
-
-    free: F8
-    resultant: F8
-    nodal: F8
-    base: F8
-    slider_base: F8
-    preload: F8
-    mux: float
-
-    def toward(self, other: "Forcing", t: float) -> "Forcing":
-        """Loads a fraction t of the way to `other`; exactly `other` at 1."""
-        if t == 1.0:
-            return other
-        return self._mixed(1.0 - t, other, t)
-
-    def _mixed(self, a: float, other: "Forcing", b: float) -> "Forcing":
-        return Forcing(
-            a * self.free + b * other.free,
-            a * self.resultant + b * other.resultant,
-            a * self.nodal + b * other.nodal,
-            a * self.base + b * other.base,
-            a * self.slider_base + b * other.slider_base,
-            a * self.preload + b * other.preload,
-            other.mux,
-        )
-
-
-@dataclass(slots=True)
-class Point:
-    """Displacements in double-double: u + low, each (n_node, 6) [m, rad]."""
-
-    u: F8
-    low: F8
-
-    @classmethod
-    def zero(cls, n_node: int) -> "Point":
-        """Undeformed."""
-        return cls(np.zeros((n_node, 6)), np.zeros((n_node, 6)))
-
-    def copy(self) -> "Point":
-        """Same point in arrays of its own."""
-        return Point(self.u.copy(), self.low.copy())
-
-    def move(self, p: F8, step: float = 1.0) -> None:
-        """Go step times p."""
-        kernels.accumulate(p, step, self.u, self.low)
-
-
-@dataclass(slots=True)
-class Sliding:
-    """What friction is, for one pass: capacities given, or `coupled` to the normal forces.
-
-    capacity, kf, mu : (n_slider,) [N], [N/m], -.  datum : (n_slider, 3) committed [m].
-    """
-
-    capacity: F8
-    kf: F8
-    mu: F8
-    datum: F8
-    coupled: bool = False
-
-
-@dataclass(slots=True)
-class Response:
-    """What supports answer to a displacement: forces, states and tangents; see `State`."""
-
-    capacity: F8
-    side: I4
-    reaction: F8
-    tangent: F8
-    mode: I4
-    friction: F8
-    slide: F8
-    slider_tangent: F8
-    normal: F8
+from trunnion.solver.quantities import Forcing, Point, Response, Sliding
 
 
 class Box:

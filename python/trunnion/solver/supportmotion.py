@@ -5,11 +5,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from trunnion.arrays import B1, F8, ModeSet, System
-from trunnion.balance import local_forces
+from trunnion.results.balance import local_forces
+from trunnion.results.supports import contact_sums
 from trunnion.solver.inertia import element_inertia
 from trunnion.solver.pencil import Pencil
-from trunnion.solver.structure import Point, Sliding, Structure
-from trunnion.supports import contact_sums
+from trunnion.solver.quantities import Point, Sliding
+from trunnion.solver.structure import Structure
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,7 +8,8 @@ from trunnion.arrays import F8, State
 from trunnion.solver.convergence import judge
 from trunnion.solver.coupled import coupled_step
 from trunnion.solver.newton import tangent_factor
-from trunnion.solver.structure import Forcing, Point, Response, Sliding, Structure
+from trunnion.solver.quantities import Forcing, Point, Response, Sliding
+from trunnion.solver.structure import Structure
 
 REFINEMENTS = 8
 SHARP = 1e-13  # next correction that ends the refinement, relative

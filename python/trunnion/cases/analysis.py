@@ -1,0 +1,232 @@
+"""All cases of a model, in order: `trunnion.solve(model)`."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from trunnion.arrays import F8, CaseResult, CycleResult, Loads, ModeSet, Results, System
+from trunnion.cases.casetext import case_text, in_order
+from trunnion.cases.default_cases import with_cases
+from trunnion.cases.snubbed import go_on, locked_at_rest
+from trunnion.loads import LoadSets, case_loads, case_warnings, load_sets
+from trunnion.model import Case, Comb, Model
+from trunnion.results.combine import combine
+from trunnion.solver.answer import Question, answer, forcing_of, refuse_mechanisms
+from trunnion.solver.friction import Solved
+from trunnion.solver.ledger import Ledger
+from trunnion.solver.linear import solve_linear
+from trunnion.solver.quantities import Point
+from trunnion.solver.steps import Origin, Plan
+from trunnion.solver.structure import Structure
+from trunnion.system import build_system, hot_system
+
+
+@dataclass(frozen=True, slots=True)
+class Start:
+    """A start of the iterations of one case, for the search of other answers.
+
+    capacity : (n_slider,) first friction capacities mu N [N].
+    """
+
+    capacity: F8
+
+
+def solve(model: Model, *, starts: Mapping[str, Start] | None = None) -> Results:
+    """Solve every case and combination of a model; one without cases takes default ones.
+
+    Parameters
+    ----------
+    starts : other starts of the iterations by case name; the law solved is the same.
+
+    Raises
+    ------
+    DeckError
+        Words of the model that do not fit together.
+    ModelError
+        The structure is impossible, or moves freely even with every contact closed.
+    """
+    model.check()
+    return Run(with_cases(model), starts or {}).results()
+
+
+def solve_system(
+    system: System, cases: Mapping[str, Loads], plans: Mapping[str, Plan] | None = None
+) -> Results:
+    """Solve loads on a system of arrays: the way in for programs that need no deck."""
+    ledger = Ledger()
+    structure = Structure(system, ledger)
+    found: dict[str, CaseResult] = {}
+    for name, loads in cases.items():
+        before = ledger.snapshot() if found else dict.fromkeys(ledger.NAMES, 0)
+        question = Question(name, name, loads, (plans or {}).get(name, Plan()))
+        found[name], _ = answer(structure, question)
+        found[name].work |= ledger.since(before)
+    return Results("", found, (), ledger.snapshot())
+
+
+class Run:
+    """One run over a model: structures by modulus set, answers by case."""
+
+    def __init__(self, model: Model, starts: Mapping[str, Start]) -> None:
+        self.model, self.starts = model, starts
+        self.ledger = Ledger()
+        self.system = build_system(model)
+        self.sets: LoadSets = load_sets(model, self.system)
+        self.structures: dict[tuple[str, bool], Structure] = {}
+        self.found: dict[str, CaseResult] = {}
+        self.ended: dict[str, Origin] = {}
+        self.refused_modes: str | None = None
+        self.counted = self.ledger.snapshot()  # work that stands on a case already
+
+    def results(self) -> Results:
+        """Solve all, in an order in which every case finds what it starts from."""
+        cases = in_order(self.model.cases)
+        plain = [c for c in cases if isinstance(c, Case) and not (c.about or c.on or c.spectrum)]
+        prepared = self._solve_linear(plain)
+        for own in plain:
+            self._keep(self.solve_case(own, prepared.get(own.name)))
+        locked = [c for c in cases if isinstance(c, Case) and (c.about or c.on)]
+        if locked:
+            from trunnion.cases.occasional import LockedPass
+
+            for result in LockedPass(self).solve(locked):
+                self._keep(result)
+        modes = self._dynamics([c for c in cases if isinstance(c, Case) and c.spectrum])
+        cycles = self._cycles()
+        for case in cases:
+            if isinstance(case, Comb):
+                self.found[case.name] = combine(case, self.found)
+        inorder = {case.name: self.found[case.name] for case in self.model.cases}
+        work = self.ledger.snapshot()
+        warnings = (self.refused_modes,) if self.refused_modes else ()
+        return Results(
+            self.model.title, inorder, warnings, work, cycles, modes=modes, base=self.system
+        )
+
+    def _dynamics(self, spectra: list[Case]) -> ModeSet | None:
+        """Find the modes and solve the spectrum cases, where a deck asks for them."""
+        if self.model.modal is None and not spectra:
+            return None
+        from trunnion.cases.dynamics import Dynamics
+
+        dynamics = Dynamics(self)
+        self.refused_modes = dynamics.cause
+        for result in dynamics.spectra(spectra):
+            self._keep(result)
+        return dynamics.modes
+
+    def _cycles(self) -> dict[str, CycleResult]:
+        """Follow the loops of cases, where there are any."""
+        if not self.model.cycles:
+            return {}
+        from trunnion.cases.cycles import follow
+
+        return {cycle.name: follow(self, cycle) for cycle in self.model.cycles}
+
+    def _keep(self, result: CaseResult) -> None:
+        """Store an answer with the work done since the last; shared work stands on the first."""
+        result.work = self.ledger.since(self.counted) | result.work
+        self.counted = self.ledger.snapshot()
+        self.found[result.name] = result
+
+    # ------------------------------------------------------------------ preparation
+    def question(self, case: Case, system: System | None = None) -> Question:
+        """A case with its loads (on another system than its own, if given) and its plan."""
+        settings = self.model.settings
+        start = self.starts.get(case.name)
+        plan = Plan(
+            steps=case.steps,
+            events=settings.events if case.events is None else case.events,
+            iteration=case.iteration or settings.iteration,
+            capacity=None if start is None else np.array(start.capacity, np.float64),
+        )
+        return Question(
+            case.name,
+            case_text(case),
+            case_loads(self.model, system or self.structure(case).system, case, self.sets),
+            plan,
+            case.place,
+            case_warnings(self.sets, case),
+        )
+
+    @staticmethod
+    def hot_set(case: Case) -> str:
+        """Temperature set of a case, "" where it has none."""
+        return next((t.name[1:] for t in case.terms if t.name[0] == "T"), "")
+
+    def structure(self, case: Case) -> Structure:
+        """Structure for a case: the modulus of its E=, snubbers engaged where it locks them."""
+        which = self.hot_set(case) if case.hot else ""
+        return self.structure_of(which, snubbed=case.snubbers == "LOCKED")
+
+    def structure_of(self, which: str, *, snubbed: bool = False) -> Structure:
+        """Structure of a modulus set ("" is cold), with or without engaged snubbers."""
+        snubbed = snubbed and len(self.system.snubbers.k) > 0
+        key = (which, snubbed)
+        if key not in self.structures:
+            if snubbed:
+                from trunnion.solver.locked import snubbed_system
+
+                parent = self.structure_of(which)
+                system, keep = snubbed_system(parent.system)
+                self.structures[key] = Structure(system, self.ledger, parent, keep)
+            else:
+                system = hot_system(self.model, self.system, which) if which else self.system
+                self.structures[key] = Structure(system, self.ledger)
+        return self.structures[key]
+
+    def _solve_linear(self, cases: list[Case]) -> dict[str, tuple[Point, Solved]]:
+        """Where nothing can change, all cases of one modulus take one solve."""
+        groups: dict[int, list[Case]] = {}
+        for case in cases:
+            structure = self.structure(case)
+            if not structure.changes:
+                groups.setdefault(id(structure), []).append(case)
+        prepared: dict[str, tuple[Point, Solved]] = {}
+        for group in groups.values():
+            structure = self.structure(group[0])
+            forcings = [forcing_of(structure, self.question(case)) for case in group]
+            answers = solve_linear(structure, forcings)
+            refuse_mechanisms(structure)
+            names = (case.name for case in group)
+            prepared.update(zip(names, answers, strict=True))
+        return prepared
+
+    # ------------------------------------------------------------------ one case
+    def solve_case(self, case: Case, prepared: tuple[Point, Solved] | None = None) -> CaseResult:
+        """Solve one case from rest or from the case that FROM names."""
+        question = self.question(case)
+        structure = self.structure(case)
+        if case.start and case.start not in self.ended:
+            return CaseResult(
+                name=case.name,
+                kind="case",
+                text=question.text,
+                system=structure.system,
+                loads=question.loads,
+                state=None,
+                converged=False,
+                cause=f"it starts from {case.start}, which has no answer",
+            )
+        origin = self.ended[case.start] if case.start else None
+        result, end = self.go_on(case, question, origin, prepared)
+        if end is not None:
+            self.ended[case.name] = end
+        return result
+
+    def go_on(
+        self,
+        case: Case,
+        question: Question,
+        origin: Origin | None,
+        prepared: tuple[Point, Solved] | None = None,
+    ) -> tuple[CaseResult, Origin | None]:
+        """Solve one case from where another ended, or from rest."""
+        structure, locked = self.structure(case), case.snubbers == "LOCKED"
+        if origin is not None:
+            loads, origin = go_on(self.system, structure, origin, question.loads, locked=locked)
+            question = replace(question, loads=loads)
+        elif locked:
+            origin = locked_at_rest(structure)
+        return answer(structure, question, origin, prepared)

@@ -1,0 +1,1 @@
+"""Tables of the trade: materials, pipe sizes, and names that are nearly right."""

@@ -1,0 +1,157 @@
+"""Arrays of elements: axes, lengths, rigidities, factors of bends."""
+
+from dataclasses import dataclass
+from math import cos, pi, sin
+
+import numpy as np
+
+from trunnion.arrays import ARC, F8, I4, SPRING
+from trunnion.model import Material, Model, Section
+from trunnion.system.bends import Corner, flexibility, stiffening_pressure
+from trunnion.system.geometry import Geometry
+from trunnion.system.numbering import Numbering
+from trunnion.system.vectors import AXES, Vec, add, cross, scale, unit, upright
+
+RIGID_WALL = 10.0  # wall of a rigid in walls of its pipe, at the same inside diameter
+_VERTICAL = 1e-6  # as in vectors.upright
+
+
+@dataclass(frozen=True, slots=True)
+class Elements:
+    """The element arrays of a System, under the same names."""
+
+    ends: I4
+    kind: I4
+    source: I4
+    axes: F8
+    length: F8
+    radius: F8
+    angle: F8
+    rigidity: F8
+    flex: F8
+    spring: F8
+    od: F8
+    wall: F8
+
+    def tangents(self) -> F8:
+        """Return unit tangents (n_elem, 2, 3) along the element at its ends."""
+        ex, ey = self.axes[:, 0], self.axes[:, 1]
+        turn = self.angle[:, None]
+        return np.stack([ex, np.cos(turn) * ex + np.sin(turn) * ey], axis=1)
+
+
+def build_elements(
+    model: Model, geometry: Geometry, numbering: Numbering, xyz: F8, up: Vec
+) -> Elements:
+    """Describe the rows of `numbering` by arrays."""
+    rows = numbering.rows
+    n = len(rows)
+    start, end, kind, source = (
+        np.array([row[i] for row in rows], dtype=np.int32) for i in range(4)
+    )
+    ends = np.stack([start, end], axis=1)
+    run = _runs(model, geometry, xyz, ends, source)
+    length = np.linalg.norm(run, axis=1)
+    axes = straight_axes(run, length, up)
+    radius, angle, flex, spring = np.zeros(n), np.zeros(n), np.ones(n), np.zeros((n, 6))
+    for e in np.flatnonzero(kind == ARC).tolist():
+        c, (first, last) = geometry.corners[rows[e].bend], rows[e].share
+        axes[e] = _arc_axes(c, first * c.angle)
+        radius[e], angle[e] = c.radius, (last - first) * c.angle
+        length[e] = radius[e] * angle[e]
+        flex[e] = _flex(model, c)
+    springs = np.flatnonzero(kind == SPRING).tolist()
+    for e, record in zip(springs, model.springs, strict=True):
+        axes[e] = AXES if record.axis is None else upright(unit(record.axis), up)
+        spring[e] = record.k
+        length[e] = 0.0
+    values = _properties(model)[source]
+    return Elements(
+        ends=ends,
+        kind=kind,
+        source=source,
+        axes=axes,
+        length=length,
+        radius=radius,
+        angle=angle,
+        rigidity=np.ascontiguousarray(values[:, :4]),
+        flex=flex,
+        spring=spring,
+        od=values[:, 4].copy(),
+        wall=values[:, 5].copy(),
+    )
+
+
+def straight_axes(run: F8, length: F8, up: Vec) -> F8:
+    """Axes (n, 3, 3) of members along `run`; the rule of `vectors.upright`, vectorised."""
+    ex = run / np.where(length > 0.0, length, 1.0)[:, None]
+    ez = np.cross(ex, np.array(up))
+    side = np.linalg.norm(ez, axis=1)
+    upwards = side < _VERTICAL
+    ez[upwards] = np.cross(ex[upwards], np.array(AXES[0]))
+    ez /= np.where(length > 0.0, np.linalg.norm(ez, axis=1), 1.0)[:, None]
+    return np.stack([ex, np.cross(ez, ex), ez], axis=1)
+
+
+def _runs(model: Model, geometry: Geometry, xyz: F8, ends: I4, source: I4) -> F8:
+    """Vectors from end to end.
+
+    What the deck says is taken as it is, less the tangents of bends: the difference of large
+    coordinates would cost digits.  Only a pipe that closes a loop not quite takes its nodes.
+    """
+    run = xyz[ends[:, 1]] - xyz[ends[:, 0]]
+    taken = [0.0] * len(model.pipes)
+    for c in geometry.corners.values():
+        taken[c.legs.near] += c.tangent
+        taken[c.legs.far] += c.tangent
+    missing = (np.nan,) * 3
+    given = np.array([missing, *(p.delta or missing for p in model.pipes)], dtype=np.float64)[1:]
+    given = np.vstack([given, [missing]])
+    full = np.linalg.norm(given, axis=1)
+    left = 1.0 - np.append(taken, 0.0) / np.where(full > 0.0, full, np.inf)
+    said = (given * left[:, None])[source]
+    extent = float(np.ptp(xyz, axis=0).max()) if len(xyz) else 0.0
+    tolerance = 1e-12 * (extent + float(np.abs(xyz).max(initial=0.0)))
+    agree = np.linalg.norm(run - said, axis=1) <= tolerance  # False for nan
+    return np.where(agree[:, None], said, run)
+
+
+def _arc_axes(c: Corner, turned: float) -> tuple[Vec, Vec, Vec]:
+    ex = add(scale(cos(turned), c.a), scale(sin(turned), c.c))
+    ey = add(scale(cos(turned), c.c), scale(-sin(turned), c.a))
+    return ex, ey, cross(ex, ey)
+
+
+def _flex(model: Model, c: Corner) -> float:
+    pipe = model.pipes[c.legs.near]
+    section, material = model.sections[pipe.section], model.materials[pipe.material]
+    pressure = stiffening_pressure(model.settings, pipe)
+    return flexibility(c.legs.bend, c.radius, section, material, pressure)
+
+
+def _properties(model: Model) -> F8:
+    """EA, GJ, EI, GAs, od, wall of each pipe; the last row is for springs, all zero."""
+    shear = model.settings.shear
+    known: dict[tuple[str, str, bool], tuple[float, ...]] = {}
+    rows: list[tuple[float, ...]] = []
+    for pipe in model.pipes:
+        key = (pipe.section, pipe.material, pipe.rigid)
+        if key not in known:
+            section, material = model.sections[pipe.section], model.materials[pipe.material]
+            known[key] = section_rigidity(section, material, rigid=pipe.rigid, shear=shear)
+        rows.append(known[key])
+    rows.append((0.0,) * 6)
+    return np.array(rows)
+
+
+def section_rigidity(
+    section: Section, material: Material, *, rigid: bool, shear: bool
+) -> tuple[float, ...]:
+    """EA [N], GJ, EI [N m2], GAs [N] with shear area A/2, od and wall [m] of a pipe."""
+    bore = section.od - 2.0 * section.wall
+    wall = section.wall * (RIGID_WALL if rigid else 1.0)
+    od = bore + 2.0 * wall
+    area = 0.25 * pi * (od**2 - bore**2)
+    second = pi / 64.0 * (od**4 - bore**4)
+    e, g = material.e, 0.5 * material.e / (1.0 + material.nu)
+    return e * area, g * 2.0 * second, e * second, 0.5 * g * area if shear else 0.0, od, wall
