@@ -23,7 +23,7 @@ PROXIMAL = 1e-9  # of the largest element stiffness, on the diagonal of a singul
 RUNAWAY = 1e3  # displacement over the size of the model that means a mechanism
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class Outcome:
     """Where an inner iteration ended."""
 
