@@ -247,6 +247,8 @@ def _six(kind: str, values: Sequence[Sequence[float]], units: ReportUnits) -> li
 def _cases(model: Model, texts: Mapping[str, str]) -> str:
     """Write every case as its card does; those of a deck that names none are marked."""
     text = section("LOAD CASES", "" if model.cases else "default: the deck names none")
+    if not texts:  # a free structure has modes and no default cases
+        return text + "  none\n"
     cases = with_cases(model).cases
     width = max(len(case.name) for case in cases) + 2
     for case in cases:
