@@ -530,7 +530,7 @@ TABLE: tuple[Keyword, ...] = (
         ),
         notes=(
             "Snubbers are locked.",
-            "Where the structure moves freely, a deck without CASE, COMB and CYCLE has modes alone.",
+            "Where the structure moves freely, a deck without cases and cycles has modes alone.",
         ),
         example="MODES 12 ABOUT=OPE FMAX=33",
     ),
