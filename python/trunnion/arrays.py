@@ -3,6 +3,7 @@
 A `System` is one model with numbered freedoms, a `Loads` the loads of one case on it, a
 `CaseResult` the answer.  Freedom order at a node: ux uy uz rx ry rz, global.  An element is
 described at its second end ("tip"), fixed at the first: six deformations and six forces.
+Records of arrays have no == (arrays have no one truth value) and no repr of theirs.
 """
 
 from dataclasses import dataclass, field
@@ -21,7 +22,7 @@ B1 = NDArray[np.bool_]
 STRAIGHT, ARC, SPRING = 0, 1, 2  # System.kind
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Contacts:
     """One item a direction word: a normal (or a plane of two normals) with two sides.
 
@@ -69,7 +70,7 @@ def no_contacts() -> Contacts:
     )
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Sliders:
     """One item a friction element: Coulomb sliding in a fixed line or plane.
 
@@ -127,7 +128,7 @@ class Part:
     line: int
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class System:
     """A numbered model.
 
@@ -173,7 +174,7 @@ class System:
     snubbers: Contacts = field(default_factory=no_contacts)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Loads:
     """Loads of one case (or of a fraction of it).
 
@@ -202,7 +203,7 @@ OPEN, MINUS, PLUS, BOTH = 0, -1, 1, 2  # contact side; BOTH: two-way or radial
 ENGAGED, STICK, SLIP = 1, 2, 3  # slider state; OPEN = 0; ENGAGED: no friction
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class State:
     """The numbers of one solved case.  Displacements are u + u_low (unevaluated sum).
 
@@ -266,7 +267,7 @@ class FrozenBreak:
     amount: float
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Gathered:
     """Numbers of a result without contact states: a combination or a response spectrum.
 
@@ -295,7 +296,7 @@ def sizes(card_force: F8, local_force: F8) -> Gathered:
     return Gathered(card_force, normal, np.zeros_like(normal), card_force, local_force, local_force)
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class CycleResult:
     """A loop of cases followed with committed datums.
 
@@ -331,7 +332,7 @@ class CycleResult:
         return element_ranges(self)
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class CaseResult:
     """One case or combination.
 
@@ -390,7 +391,7 @@ class CaseResult:
         return stresses(self)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class ModeSet:
     """Natural modes about a frozen contact state, in rising frequency, rigid ones first.
 

@@ -23,7 +23,7 @@ from trunnion.solver.structure import Structure
 from trunnion.system import build_system, hot_system
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Start:
     """A start of the iterations of one case, for the search of other answers.
 

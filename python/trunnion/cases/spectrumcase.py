@@ -39,7 +39,7 @@ RESIDUAL = 1e-9  # of a mode whose forces may be reported
 ENOUGH = 0.9  # part of the mass below which a case without missing mass warns
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Push:
     """A shock with its participation (m,) and the supports that it moves; None: all."""
 

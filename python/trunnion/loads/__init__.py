@@ -15,7 +15,7 @@ from trunnion.model import Case, Model, Term
 from trunnion.system.checks import refuse
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class LoadSets:
     """Every load set of a model with factor 1, on its numbered system.
 

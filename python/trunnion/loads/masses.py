@@ -11,7 +11,7 @@ from trunnion.loads.weights import line_weights
 from trunnion.model import Material, Model, Pipe, Section
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Masses:
     """What moves.
 

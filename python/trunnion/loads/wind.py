@@ -42,7 +42,7 @@ _LEVEL = 1e-4  # rise of an element [m] below which its middle stands for its me
 _PANELS, _POINTS = 4, 8  # of the integration along an arc
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class WindLoad:
     """One wind set on the elements of a system; all zero where it does not act.
 

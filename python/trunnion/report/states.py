@@ -19,7 +19,7 @@ NOTE = (
 TOGETHER = "  ALL: friction of all words of the card together (FRICTION=RESULTANT)\n"
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class _Rows:
     """Rows of the table: contacts, sliders that rub on several of them, free snubbers.
 

@@ -34,7 +34,7 @@ _CARDS = ("card_force", "card_normal", "card_friction")
 _LINEAR = frozenset(("case", "+", "-", "*", "neg", "scalar"))
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Numbers:
     """All numbers of one result in a row, as unevaluated sums high + low."""
 

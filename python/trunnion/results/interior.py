@@ -14,7 +14,7 @@ from trunnion.arrays import ARC, F8, I4, SPRING, STRAIGHT, CaseResult, Loads, Sy
 Index = NDArray[np.integer]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Points:
     """Answers at points along elements.
 
@@ -155,7 +155,7 @@ def stations(case: CaseResult, per_span: int) -> Points:
     return points(case, np.repeat(pipes, per_span + 1), np.tile(fraction, len(pipes)))
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Extremes:
     """Largest deflection of straight elements across their axis, from the chord of their ends.
 

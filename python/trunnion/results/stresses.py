@@ -21,7 +21,7 @@ from trunnion.results.balance import section_forces
 from trunnion.results.interior import mid_points
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Stresses:
     """Stresses [Pa] at n sections; bending, shear and torsion are sizes.
 

@@ -168,7 +168,7 @@ def without_sign(case: CaseResult) -> B1:
     return alike
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Envelope:
     """Extremes over cases, each (n_card, 6), on the pipe; the cases as numbers.
 

@@ -32,7 +32,7 @@ Words = Mapping[str, Sequence[str | None]]
 FORCES = ("fx", "fy", "fz", "mx", "my", "mz")
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Table:
     """Rows with labels, numbers in SI and some columns of words.
 

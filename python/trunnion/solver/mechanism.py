@@ -16,7 +16,7 @@ RITZ, RESOLVED = 3, 1e-12  # energies below this part of the largest are taken a
 AXES = "XYZ"
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Motion:
     """A motion without energy: `text` is for the user, `v` (n_node, 6) its shape."""
 

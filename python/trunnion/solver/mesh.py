@@ -19,7 +19,7 @@ PARTS_OF_WAVE = 8.0
 MOST_PARTS = 200  # of one element
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Mesh:
     """A system with longer elements cut.
 

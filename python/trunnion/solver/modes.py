@@ -91,7 +91,7 @@ def mass_rank(pencil: Pencil) -> int:
     return pencil.rank - held
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Found:
     """Eigenpairs in rising order: w2 (k,), x + low (k, n_dof); and what is known of them."""
 

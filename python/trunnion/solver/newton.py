@@ -17,13 +17,13 @@ from trunnion.solver.quantities import Forcing, Point, Response, Sliding
 from trunnion.solver.structure import Structure
 
 FULL_STEPS = 12  # tried before the line search takes over
-CALM = 8  # searched steps without a contact that opens or closes, after which full ones may return
+CALM = 8  # searched steps without a change of state, after which full ones may return
 TINY_PIVOT = 1e-14  # rcond below which the tangent counts as singular
 PROXIMAL = 1e-9  # of the largest element stiffness, on the diagonal of a singular tangent
 RUNAWAY = 1e3  # displacement over the size of the model that means a mechanism
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class Outcome:
     """Where an inner iteration ended."""
 
@@ -85,6 +85,7 @@ def relax(
         r += changing
         history.add(what, residual, step, before, response)
         same = np.array_equal(before.side, response.side)
+        same = same and np.array_equal(before.mode, response.mode)
         calm = calm + 1 if same and i >= full_steps else 0
         if calm == CALM:
             full_steps, calm = i + 1 + FULL_STEPS, 0

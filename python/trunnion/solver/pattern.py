@@ -10,7 +10,7 @@ from trunnion.arrays import I4, Contacts, Sliders
 SIX = 6
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Pattern:
     """Columns of the lower triangle and where each pair of nodes stands in it.
 

@@ -8,7 +8,7 @@ from trunnion import kernels
 from trunnion.arrays import F8, I4
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Forcing:
     """Loads as the kernels take them; linear, so that steps are mixtures of two.
 
@@ -45,7 +45,7 @@ class Forcing:
         )
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class Point:
     """Displacements in double-double: u + low, each (n_node, 6) [m, rad]."""
 
@@ -66,7 +66,7 @@ class Point:
         kernels.accumulate(p, step, self.u, self.low)
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class Sliding:
     """What friction is, for one pass: capacities given, or `coupled` to the normal forces.
 
@@ -80,7 +80,7 @@ class Sliding:
     coupled: bool = False
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class Response:
     """What supports answer to a displacement: forces, states and tangents; see `State`."""
 

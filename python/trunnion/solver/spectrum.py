@@ -20,7 +20,7 @@ from trunnion.model import Shock, Spectrum, SpectrumUse
 from trunnion.solver.combination import OVER, combine_modes, srss
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Drive:
     """One shock made numbers.
 

@@ -32,7 +32,7 @@ STEADY = 0.05  # how nearly equal two ratios are, of 1 - ratio
 STICKY = 1e300
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class Creep:
     """The last steps of the trial data, for the ratio of the geometric creep."""
 

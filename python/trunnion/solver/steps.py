@@ -22,7 +22,7 @@ LOCATED = 1e-12  # of the size of the model: an opening at which a closing count
 Step = Callable[[Structure, Point, Sliding, Forcing, History], Solved]
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class Plan:
     """How a case is to be solved."""
 
@@ -33,7 +33,7 @@ class Plan:
     ramp: bool = True  # whether ramping and freezing may be tried
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class Origin:
     """Where a case starts: loads, displacements and committed data of the case FROM names.
 

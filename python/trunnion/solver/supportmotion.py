@@ -13,7 +13,7 @@ from trunnion.solver.quantities import Point, Sliding
 from trunnion.solver.structure import Structure
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Answers:
     """What several displacements at once do, item first, on the model's nodes and elements.
 

@@ -18,7 +18,7 @@ SLIP, OPEN, ENGAGED = 3, 0, 1
 NOTHING = 1e-6  # a displacement that the penalty effect does not speak of [m]
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class Reported:
     """Numbers of one case and what the certificate and the report need beside them."""
 

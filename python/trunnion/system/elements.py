@@ -16,7 +16,7 @@ RIGID_WALL = 10.0  # wall of a rigid in walls of its pipe, at the same inside di
 _VERTICAL = 1e-6  # as in vectors.upright
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Elements:
     """The element arrays of a System, under the same names."""
 
