@@ -68,18 +68,20 @@ def run(deck: Path, folder: Path, h5: bool, timings: bool) -> int:
 @DECK
 def check(deck: Path) -> int:
     """Read DECK, look for mechanisms and missing loads; solve and write nothing."""
-    from trunnion.cases.default_cases import with_cases
+    from trunnion.cases.default_cases import may_be_free, with_cases
     from trunnion.loads import case_loads, load_sets
     from trunnion.model import Case
     from trunnion.system import build_system
 
-    model = with_cases(_read(deck))
+    read = _read(deck)
+    model = with_cases(read)
     system = build_system(model)
     sets = load_sets(model, system)
     for case in model.cases:
         if isinstance(case, Case):
             case_loads(model, system, case, sets)
-    _refuse_mechanisms(system)
+    if not may_be_free(read):
+        _refuse_mechanisms(system)
     counts = (
         (len(system.labels), "nodes"),
         (len(system.parts), "elements"),

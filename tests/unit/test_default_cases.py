@@ -100,3 +100,24 @@ def test_solved_and_marked_in_the_report_but_not_written_in_a_deck(tmp_path):
     write_reports(results, model, tmp_path, "a")
     assert "LOAD CASES   default: the deck names none" in (tmp_path / "a.out").read_text()
     assert "CASE" not in model.deck()
+
+
+FREE = TOP + "PIPE 10 20 DX=6\nMODES 8\n"
+
+
+def test_a_free_pipe_has_modes_and_no_default_cases(tmp_path):
+    model = read_text(FREE)
+    results = trunnion.solve(model)
+    assert not results.cases
+    assert results.modes.rigid == 6
+    assert results.modes.frequency[6] > 1.0
+    assert "moves freely" in results.warnings[0]
+    out, _ = write_reports(results, model, tmp_path, "free", h5=False)
+    assert "no cases" in out.read_text()
+
+
+@pytest.mark.parametrize("more", ["CASE A = W\n", "MODES"])
+def test_a_free_pipe_with_a_case_or_without_modes_is_refused(more):
+    deck = FREE.replace("MODES 8\n", "") if more == "MODES" else FREE + more
+    with pytest.raises(trunnion.ModelError, match="moves freely"):
+        trunnion.solve(read_text(deck))

@@ -387,3 +387,13 @@ def test_a_frozen_structure_shares_the_analysis_of_the_statics():
     assert ledger.count["analyse"] == 1
     assert ledger.count["mass"] == 1
     assert whole_mesh(system).added == 0
+
+
+@pytest.mark.parametrize(("n", "fmax"), [(3, None), (8, 20.0), (8, None)])
+def test_all_modes_below_the_counted_frequency_are_listed(n, fmax):
+    """Modes found behind the last one asked for, or above FMAX, are not in the list."""
+    system, masses = deck(pinned(8))
+    found, _ = solved(system, masses, n, fmax=fmax)
+    every, _ = solved(system, masses, 20)
+    assert (every.frequency < found.counted * (1.0 - 1e-6)).sum() <= len(found.frequency)
+    assert found.counted > found.frequency[-1] * (1.0 - 1e-12)

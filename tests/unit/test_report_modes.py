@@ -144,3 +144,15 @@ def test_every_key_is_documented(results):
     page = (Path(__file__).parents[2] / "docs" / "json_layout.md").read_text()
     known = {word for quoted in re.findall(r"`([^`]+)`", page) for word in quoted.split(".")}
     assert set(json.loads(json_report(results))["modes"]) - known == set()
+
+
+def test_shapes_turn_in_the_deck_s_unit_of_length(results, model):
+    def first_turn(length):
+        units = replace(model.units, length=length)
+        text = text_report(results, replace(model, units=units)).decode()
+        shape = text[text.index("MODE 1: SHAPE") :].split("\n\n")[0]
+        assert f"[rad/{length}]" in shape
+        row = next(line.split() for line in shape.splitlines() if line.startswith("  10 "))
+        return float(np.hypot(float(row[5]), float(row[6])))
+
+    assert first_turn("in") == pytest.approx(0.0254 * first_turn("m"), abs=2e-6)

@@ -6,11 +6,13 @@ import numpy as np
 import pytest
 
 from trunnion.arrays import ModeSet
+from trunnion.cases.analysis import solve
 from trunnion.cases.spectrumcase import SpectrumPass
 from trunnion.deck.reader import read_text
 from trunnion.errors import ModelError
 from trunnion.loads.masses import Masses, model_masses
 from trunnion.model import Case, Group, Model, Shock, Spectrum, SpectrumUse
+from trunnion.report.modes import mode_warnings
 from trunnion.results.balance import local_forces
 from trunnion.solver.ledger import Ledger
 from trunnion.solver.modal import modes_of
@@ -431,3 +433,16 @@ def test_anchor_takes_the_end_force_of_its_element(mass, modes):
     if mass == "LUMPED":  # half of the element's mass stands on the anchor and shakes it alone
         end, load = end[3:], load[3:]
     assert end == pytest.approx(load, rel=1e-6, abs=1e-6 * np.abs(load).max())
+
+
+@pytest.mark.parametrize("missing", ["ON", "OFF"])
+def test_no_mode_below_the_cut_off_leaves_the_static_response(missing):
+    deck = CANTILEVER.replace("CASE A = F1\n", "")
+    deck += "MASS 20 M=500\nMODES 1 FMAX=0.001\nSPECTRUM FLAT Y=M/S2 TABLE=(1,3),(100,3)\n"
+    deck += f"CASE RS = SPECTRUM(FLAT,Y) MISSING={missing}\n"
+    results = solve(read_text(deck))
+    state = results.cases["RS"].state
+    assert not len(results.modes.frequency)
+    static = 500.0 * 3.0 if missing == "ON" else 0.0
+    assert state.end_force[0, 0, 1] == pytest.approx(static, rel=1e-6)
+    assert mode_warnings(results) == ["MODES: none, the lowest lies above FMAX"]

@@ -7,8 +7,9 @@ import numpy as np
 
 from trunnion.arrays import F8, CaseResult, CycleResult, Loads, ModeSet, Results, System
 from trunnion.cases.casetext import case_text, in_order
-from trunnion.cases.default_cases import with_cases
+from trunnion.cases.default_cases import may_be_free, with_cases
 from trunnion.cases.snubbed import go_on, locked_at_rest
+from trunnion.errors import ModelError
 from trunnion.loads import LoadSets, case_loads, case_warnings, load_sets
 from trunnion.model import Case, Comb, Model
 from trunnion.results.combine import combine
@@ -47,7 +48,22 @@ def solve(model: Model, *, starts: Mapping[str, Start] | None = None) -> Results
         The structure is impossible, or moves freely even with every contact closed.
     """
     model.check()
-    return Run(with_cases(model), starts or {}).results()
+    try:
+        return Run(with_cases(model), starts or {}).results()
+    except ModelError as error:
+        free = _free_modes(model)
+        if free is None:
+            raise
+        free.warnings += (f"no default cases: {error.problems[0].text}",)
+        return free
+
+
+def _free_modes(model: Model) -> Results | None:
+    """Modes alone, where a deck that names no case asks for those of a structure that is free."""
+    if not may_be_free(model):
+        return None
+    found = Run(model, {}).results()
+    return found if found.modes is not None and found.modes.rigid else None
 
 
 def solve_system(

@@ -12,6 +12,12 @@ def with_cases(model: Model) -> Model:
     return model if model.cases else replace(model, cases=default_cases(model))
 
 
+def may_be_free(model: Model) -> bool:
+    """Tell whether modes alone will do, where the structure is not held and no case is named."""
+    modal = model.modal
+    return not model.cases and not model.cycles and modal is not None and modal.about is None
+
+
 def default_cases(model: Model) -> list[Case | Comb]:
     """Cases that follow from the load sets a model gives.
 

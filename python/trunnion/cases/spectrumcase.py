@@ -1,5 +1,6 @@
 """Response spectrum cases: from modes and shocks to displacements, forces and support loads."""
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -126,7 +127,7 @@ class SpectrumPass:
             r = influence(self.structure, push.moves, AXES[shock.direction])
             hold(self.structure)
             rigid = self.structure.solve(self.pencil.mass_product(r.reshape(1, -1))).ravel()
-            flat = modes.shape.reshape(len(modes.shape), -1)
+            flat = modes.shape.reshape(len(modes.shape), r.size)
             zpa = zero_period(shock, self.model.spectra[shock.spectrum], use.zpa)
             part = missed(rigid, flat, modes.frequency, push.participation, zpa)
             u.append(part.reshape(-1, 6))
@@ -145,7 +146,7 @@ class SpectrumPass:
             amplitude = amplitudes(spectrum, push.shock.factor, frequency, push.participation)
             rest = None if left is None else getattr(left, name)[i].ravel()
             drives.append(Drive(push.shock.direction, amplitude, rest))
-        flat = modal.reshape(len(modal), -1)
+        flat = modal.reshape(len(modal), math.prod(modal.shape[1:]))
         return combine(flat, frequency, drives, use).reshape(modal.shape[1:])
 
 

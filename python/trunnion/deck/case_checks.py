@@ -1,13 +1,13 @@
 """Checks of the cases of a whole model: names, load sets, references, loops."""
 
-from collections.abc import Iterator, Set
+from collections.abc import Iterator, Sequence, Set
 from typing import NamedTuple
 
 from trunnion.cases.default_cases import with_cases
 from trunnion.deck import expressions as ex
 from trunnion.deck.record import Fault, Mark
 from trunnion.deck.values import nearest
-from trunnion.model import Case, Comb, Cycle, Model, Place
+from trunnion.model import Case, Comb, Cycle, Model, Place, Shock
 
 Named = Case | Comb | Cycle
 
@@ -92,6 +92,26 @@ def _spectra(model: Model, broken: Set[str]) -> Iterator[Fault]:
         if 0 < sum(shock.group is None for shock in shocks) < len(shocks):
             message = "SPECTRUM(...) with and without a group: motion is uniform or by groups"
             yield Fault(case.place, head, message, "SPECTRUM")
+        else:
+            yield from (Fault(case.place, head, m, "SPECTRUM") for m in _twice(model, shocks))
+
+
+def _twice(model: Model, shocks: Sequence[Shock]) -> Iterator[str]:
+    """Say what a response spectrum case would move twice in one direction."""
+    nodes = {group.name: group.nodes for group in model.groups}
+    seen: set[tuple[str, str | None]] = set()
+    moved: dict[tuple[str, str], str | None] = {}
+    for shock in shocks:
+        direction, group = shock.direction, shock.group
+        if (direction, group) in seen:
+            whose = f" for group {group}" if group else ""
+            yield f"SPECTRUM(...) stands twice in {direction}{whose}"
+            continue
+        seen.add((direction, group))
+        for node in nodes.get(group or "", ()):
+            other = moved.setdefault((direction, node), group)
+            if other != group:
+                yield f"node {node} moves in {direction} with groups {other} and {group}"
 
 
 class Link(NamedTuple):

@@ -19,7 +19,8 @@ class Bounds(NamedTuple):
     def __str__(self) -> str:
         if self.high == float("inf"):
             return f"> {self.low:g}" if self.open_low else f">= {self.low:g}"
-        return f"{self.low:g} to {self.high:g}"
+        above = "above " if self.open_low else ""
+        return f"{above}{self.low:g} to {self.high:g}"
 
 
 ANY = Bounds()
@@ -527,7 +528,10 @@ TABLE: tuple[Keyword, ...] = (
                 NOT_NEGATIVE,
             ),
         ),
-        notes=("Snubbers are locked.",),
+        notes=(
+            "Snubbers are locked.",
+            "Where the structure moves freely, a deck without cases and cycles has modes alone.",
+        ),
         example="MODES 12 ABOUT=OPE FMAX=33",
     ),
     Keyword(

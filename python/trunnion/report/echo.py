@@ -6,7 +6,7 @@ from itertools import groupby
 import numpy as np
 
 from trunnion.arrays import ARC, System
-from trunnion.cases.default_cases import with_cases
+from trunnion.cases.default_cases import may_be_free, with_cases
 from trunnion.model import Case, Comb, Model
 from trunnion.report.columns import Column, integers, numbers, plain, section, table, words, wrapped
 from trunnion.report.dynamics import cycle_text, dynamic_echo, spectrum_options
@@ -247,6 +247,8 @@ def _six(kind: str, values: Sequence[Sequence[float]], units: ReportUnits) -> li
 def _cases(model: Model, texts: Mapping[str, str]) -> str:
     """Write every case as its card does; those of a deck that names none are marked."""
     text = section("LOAD CASES", "" if model.cases else "default: the deck names none")
+    if not texts and may_be_free(model):
+        return text + "  none\n"
     cases = with_cases(model).cases
     width = max(len(case.name) for case in cases) + 2
     for case in cases:

@@ -12,7 +12,9 @@ def mode_report(modes: ModeSet, system: System, units: ReportUnits) -> str:
     """Print the modes; shapes at the nodes of the model's own `system` only."""
     if not len(modes.frequency):
         return "\n  none\n"
-    return _table(modes, units) + _mass(modes, units) + _proof(modes) + _shapes(modes, system)
+    return (
+        _table(modes, units) + _mass(modes, units) + _proof(modes) + _shapes(modes, system, units)
+    )
 
 
 def mode_warnings(results: Results) -> list[str]:
@@ -21,6 +23,8 @@ def mode_warnings(results: Results) -> list[str]:
     lines: list[str] = []
     if modes is None:
         return lines
+    if not len(modes.frequency):
+        lines.append("MODES: none, the lowest lies above FMAX")
     if not modes.proven:
         lines.append("MODES: it is not proven that no mode is missing")
     if modes.rigid:
@@ -84,15 +88,17 @@ def _proof(modes: ModeSet) -> str:
     return text + wrapped(f"nodes added where spans are long for the cut-off: {modes.added}")
 
 
-def _shapes(modes: ModeSet, system: System) -> str:
+def _shapes(modes: ModeSet, system: System, units: ReportUnits) -> str:
     """Print each shape at the model's nodes, its largest translation 1."""
     text, n = "", len(system.labels)
+    per = f"[rad/{units.length.unit}]"
     for i, shape in enumerate(modes.shape):
         size = float(np.linalg.norm(shape[:, :3], axis=1).max(initial=0.0))
         own = shape[:n] / (size or 1.0)
         columns = [words("NODE", system.labels)]
         columns += [plain(f"D{c}", own[:, k], 5, 12) for k, c in enumerate("XYZ")]
-        columns += [plain(f"R{c}", own[:, 3 + k], 6, 13, "[rad/m]") for k, c in enumerate("XYZ")]
+        turned = own[:, 3:] / units.length.factor
+        columns += [plain(f"R{c}", turned[:, k], 6, 13, per) for k, c in enumerate("XYZ")]
         title = f"MODE {i + 1}: SHAPE"
         text += section(title, f"{modes.frequency[i]:.5f} Hz; largest translation 1")
         text += table(columns)

@@ -11,6 +11,8 @@ from trunnion.results.supports import card_forces, is_good, solved
 def summary_table(results: Results, units: ReportUnits, *, only: list[str] | None = None) -> str:
     """Print the cases, or those in `only`."""
     cases = [c for c in results.cases.values() if only is None or c.name in only]
+    if not cases:
+        return "  no cases\n"
     move, where, force, restraint = zip(*(_extremes(c, units) for c in cases), strict=True)
     worst = [f"{c.certificate.worst:.1e}" if c.certificate else "-" for c in cases]
     return table(

@@ -40,7 +40,7 @@ def text_report(results: Results, model: Model) -> bytes:
     parts.append(chapter("3  LOADS ON RESTRAINTS"))
     parts.append(restraint_summary(good, units))
     parts.append(chapter("4  RESULTS BY CASE"))
-    parts.append(wrapped(CERTIFIED, ""))
+    parts.append(wrapped(CERTIFIED, "") if results.cases else "\n  none\n")
     locked = {c.name for c in model.cases if isinstance(c, Case) and is_locked(c)}
     parts += [_case(case, units, case.name in locked) for case in results.cases.values()]
     more: dict[str, list[str]] = {}

@@ -52,6 +52,7 @@ def natural_modes(
         m = int((frequency <= fmax).sum())
         x, low, frequency = x[:m], low[:m], frequency[:m]
     m = len(frequency)
+    known = np.append(found.w2[m : m + 1], found.counted).min()  # what lies behind is not listed
     shape = (m, structure.n_node, 6)
     unit = np.tile(np.eye(6)[:3], structure.n_node)
     carried = pencil.mass_product(unit)
@@ -71,7 +72,7 @@ def natural_modes(
         part_of=mesh.part_of,
         last=mesh.last,
         proven=found.proven,
-        counted=float(np.sqrt(max(found.counted, 0.0)) / (2.0 * np.pi)),
+        counted=float(np.sqrt(max(known, 0.0)) / (2.0 * np.pi)),
     )
 
 
