@@ -156,3 +156,8 @@ def test_shapes_turn_in_the_deck_s_unit_of_length(results, model):
         return float(np.hypot(float(row[5]), float(row[6])))
 
     assert first_turn("in") == pytest.approx(0.0254 * first_turn("m"), abs=2e-6)
+
+
+def test_a_deck_without_modes_has_no_frequencies(results):
+    static = replace(results, modes=None)
+    assert json.loads(json_report(static))["modes"] == {"frequency_hz": []}

@@ -39,6 +39,7 @@ def json_report(results: Results, model: Model | None = None) -> bytes:
         parts["cycles"] = cycle_entries(results)
     if model is not None and model.winds:
         parts["winds"] = wind_entries(model, results.system)
+    parts["modes"] = dump({"frequency_hz": []})
     if results.modes is not None:
         parts["modes"] = mode_entries(results.modes, results.system)
     parts["warnings"] = dump(list(results.warnings))
