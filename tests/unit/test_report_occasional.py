@@ -222,3 +222,15 @@ def test_hdf5_holds_what_a_case_has_of_its_own(results):
         assert file["cases/EQX/support_state"][snubber] == 5
         assert file["cases/EQY/frozen_check/what"].asstr()[:].tolist().count("pulls") >= 1
         assert file["cycles/HEAT/path"].shape == (4, len(file["model/supports/id"]), 6)
+
+
+def test_restraints_name_the_cases_that_are_increments(text):
+    assert "\n  increments about another case, not totals: EQX, EQY, EQN\n" in text
+
+
+def test_default_cases_show_what_breaks_the_frozen_state():
+    deck = DECK[: DECK.index("CASE")] + "ACCELERATION U1 Y=1.3\n"
+    model = read_text(deck, "line.inp")
+    text = text_report(trunnion.solve(model), model).decode()
+    assert "increments about another case, not totals: BY_U1\n" in text
+    assert "BY_U1: FROZEN CONTACT STATE" in text

@@ -446,3 +446,12 @@ def test_no_mode_below_the_cut_off_leaves_the_static_response(missing):
     static = 500.0 * 3.0 if missing == "ON" else 0.0
     assert state.end_force[0, 0, 1] == pytest.approx(static, rel=1e-6)
     assert mode_warnings(results) == ["MODES: none, the lowest lies above FMAX"]
+
+
+@pytest.mark.parametrize(("first", "warned"), [(0.1, False), (90.0, True)])
+def test_mode_below_the_first_point_of_a_spectrum_is_warned_of(first, warned):
+    deck = CANTILEVER.replace("CASE A = F1\n", "")
+    deck += f"MASS 20 M=500\nMODES 1\nSPECTRUM S Y=M/S2 TABLE=({first},3),(100,3)\n"
+    deck += "CASE RS = SPECTRUM(S,Y) MISSING=ON\n"
+    warnings = solve(read_text(deck)).cases["RS"].warnings
+    assert any("lies below spectrum S" in text for text in warnings) == warned

@@ -101,7 +101,7 @@ class SpectrumPass:
             converged=certificate.passed,
             cause=None if certificate.passed else f"{certificate.where} is not accurate",
             certificate=certificate,
-            warnings=_warnings(self.modes, use),
+            warnings=_warnings(self.modes, use) + _below(self.modes, self.model, use),
             linear=False,
             gathered=sizes(found["card_force"], found["local_force"]),
         )
@@ -194,6 +194,18 @@ def _warnings(modes: ModeSet, use: SpectrumUse) -> tuple[str, ...]:
     if low and not use.missing_mass:
         found.append(f"the modes carry {', '.join(low)} of the mass; MISSING=ON adds the rest")
     return tuple(found)
+
+
+def _below(modes: ModeSet, model: Model, use: SpectrumUse) -> tuple[str, ...]:
+    """Say which spectra begin above the lowest mode; an end value above the last is the ZPA."""
+    lowest = float(modes.frequency.min(initial=np.inf))
+    spectra = [model.spectra[name] for name in dict.fromkeys(s.spectrum for s in use.shocks)]
+    return tuple(
+        f"mode 1 at {lowest:.4g} Hz lies below spectrum {spectrum.name}, whose value at "
+        f"{spectrum.frequency[0]:.4g} Hz is taken"
+        for spectrum in spectra
+        if lowest < spectrum.frequency[0] * (1.0 - 1e-9)
+    )
 
 
 def _state(system: System, found: dict[str, F8]) -> State:

@@ -20,8 +20,13 @@ NOTE = "forces and moments ON THE RESTRAINT, global; movements of the pipe at th
 COMPONENTS = ("FX", "FY", "FZ", "MX", "MY", "MZ")
 
 
-def restraint_summary(cases: Sequence[CaseResult], units: ReportUnits) -> str:
-    """Print a block for every support: one row a case, then the envelope with its cases."""
+def restraint_summary(
+    cases: Sequence[CaseResult], units: ReportUnits, increments: Sequence[str] = ()
+) -> str:
+    """Print a block for every support: one row a case, then the envelope with its cases.
+
+    `increments` are the names of cases about another, which are no totals.
+    """
     if not cases or not cases[0].system.cards:
         return "\n  none\n"
     system = cases[0].system
@@ -30,6 +35,8 @@ def restraint_summary(cases: Sequence[CaseResult], units: ReportUnits) -> str:
     move = np.stack([solved(case).u[node, :3] for case in cases], axis=1)
     text = section("LARGEST OF ALL") + _largest_of_all(cases, force, units)
     text += section("EVERY RESTRAINT", NOTE) + _signless(cases)
+    if increments:
+        text += wrapped(f"increments about another case, not totals: {', '.join(increments)}")
     text += _blocks(cases, force, move, units)
     return text + _hangers(cases, force, move, units)
 
