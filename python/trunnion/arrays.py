@@ -199,6 +199,20 @@ class Loads:
     mux: float = 1.0
 
 
+def no_loads(system: System) -> Loads:
+    """Nothing: what a response spectrum has for loads."""
+    n_elem, n_node, n_card = len(system.kind), len(system.labels), len(system.cards)
+    return Loads(
+        dist=np.zeros((n_elem, 3)),
+        strain=np.zeros(n_elem),
+        curvature=np.zeros(n_elem),
+        nodal=np.zeros((n_node, 6)),
+        base=np.zeros((n_card, 6)),
+        preload=np.zeros(n_card),
+        pressure=np.zeros(n_elem),
+    )
+
+
 OPEN, MINUS, PLUS, BOTH = 0, -1, 1, 2  # contact side; BOTH: two-way or radial
 ENGAGED, STICK, SLIP = 1, 2, 3  # slider state; OPEN = 0; ENGAGED: no friction
 

@@ -13,10 +13,10 @@ from trunnion.arrays import (
     CaseResult,
     Certificate,
     Item,
-    Loads,
     ModeSet,
     State,
     System,
+    no_loads,
     sizes,
 )
 from trunnion.errors import ModelError, Problem
@@ -97,7 +97,7 @@ class SpectrumPass:
             kind="spectrum",
             text=spectrum_text(use),
             system=self.system,
-            loads=_no_loads(self.system),
+            loads=no_loads(self.system),
             state=_state(self.system, found) if certificate.passed else None,
             converged=certificate.passed,
             cause=None if certificate.passed else f"{certificate.where} is not accurate",
@@ -236,17 +236,4 @@ def _state(system: System, found: dict[str, F8]) -> State:
         slide=np.zeros((n_slider, 3)),
         datum=np.zeros((n_slider, 3)),
         datum_end=np.zeros((n_slider, 3)),
-    )
-
-
-def _no_loads(system: System) -> Loads:
-    n_elem, n_node, n_card = len(system.kind), len(system.labels), len(system.cards)
-    return Loads(
-        dist=np.zeros((n_elem, 3)),
-        strain=np.zeros(n_elem),
-        curvature=np.zeros(n_elem),
-        nodal=np.zeros((n_node, 6)),
-        base=np.zeros((n_card, 6)),
-        preload=np.zeros(n_card),
-        pressure=np.zeros(n_elem),
     )

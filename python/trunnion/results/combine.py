@@ -22,6 +22,7 @@ from trunnion.arrays import (
     State,
     System,
     no_contacts,
+    no_loads,
     no_sliders,
 )
 from trunnion.certificate.deformation import two_difference
@@ -201,7 +202,7 @@ def _common(cases: list[CaseResult]) -> tuple[System, bool]:
 
 def _numbers(case: CaseResult, linear: bool, touching: bool) -> dict[str, F8]:
     """Name all numbers of one case that a combination has; the displacements come first."""
-    state, loads = case.state, case.loads or _no_loads(case.system)
+    state, loads = case.state, case.loads or no_loads(case.system)
     assert state is not None
     cards = gathered(case)
     found = {"u": state.u, "end_force": state.end_force}
@@ -228,20 +229,6 @@ def _corrections(expression: Expression, arrays: Mapping[str, F8 | None]) -> F8 
     """Combine first-order corrections; None when a parent has none."""
     given = {name: Numbers(a, np.zeros_like(a)) for name, a in arrays.items() if a is not None}
     return evaluate(expression, given).high if len(given) == len(arrays) else None
-
-
-def _no_loads(system: System) -> Loads:
-    """Nothing: the loads of a response spectrum are in no sum."""
-    n_node, n_elem, n_card = len(system.labels), len(system.kind), len(system.cards)
-    return Loads(
-        dist=np.zeros((n_elem, 3)),
-        strain=np.zeros(n_elem),
-        curvature=np.zeros(n_elem),
-        nodal=np.zeros((n_node, 6)),
-        base=np.zeros((n_card, 6)),
-        preload=np.zeros(n_card),
-        pressure=np.zeros(n_elem),
-    )
 
 
 def _cut(row: Numbers, shapes: Mapping[str, tuple[int, ...]]) -> dict[str, F8]:

@@ -49,7 +49,7 @@ def settle(
             outcome = _inner(structure, trial, law, forcing, history, size)
             left = law.mu * outcome.response.normal - law.capacity
             if outcome.settled and np.abs(left).max() <= (1.0 - FALL * part) * size:
-                point.u[:], point.low[:] = trial.u, trial.low
+                point.become(trial)
                 sliding.capacity = law.capacity
                 return outcome.response
     return None

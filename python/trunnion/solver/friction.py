@@ -65,7 +65,7 @@ def solve_step(
         solved = renew(structure, point, _fixed(sliding, capacity), forcing, history)
         if solved.settled or "without bound" in (solved.cause or ""):
             return solved
-    point.u[:], point.low[:] = start.u, start.low
+    point.become(start)
     outcome = all_stuck(structure, point, sliding, forcing, history)
     capacity = sliding.mu * outcome.response.normal
     again = renew(structure, point, _fixed(sliding, capacity), forcing, history)
@@ -218,7 +218,7 @@ def finish(
         history.add("coupled", residual, 1.0, before, response)
         last, residual = residual, float(np.abs(r).max())
         if residual <= 1e-11 * scale:
-            point.u[:], point.low[:] = trial.u, trial.low
+            point.become(trial)
             return Solved(True, response, law)
         if residual > 0.5 * last:
             return None

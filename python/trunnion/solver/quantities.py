@@ -61,6 +61,10 @@ class Point:
         """Same point in arrays of its own."""
         return Point(self.u.copy(), self.low.copy())
 
+    def become(self, other: "Point") -> None:
+        """Take over the displacements of another point."""
+        self.u[:], self.low[:] = other.u, other.low
+
     def move(self, p: F8, step: float = 1.0) -> None:
         """Go step times p."""
         kernels.accumulate(p, step, self.u, self.low)

@@ -54,7 +54,7 @@ def report_numbers(
             if not better or max(left) <= SHARP or i == REFINEMENTS - 1:
                 break
             best = left
-            point.u[:], point.low[:] = trial.u, trial.low
+            point.become(trial)
             r, end, response = after
         broken = judge(response, after[2], p, None, point.u).broken
         penalty_u, penalty_r, effect = _penalty(structure, point, response)
