@@ -455,3 +455,10 @@ def test_mode_below_the_first_point_of_a_spectrum_is_warned_of(first, warned):
     deck += "CASE RS = SPECTRUM(S,Y) MISSING=ON\n"
     warnings = solve(read_text(deck)).cases["RS"].warnings
     assert any("lies below spectrum S" in text for text in warnings) == warned
+
+
+@pytest.mark.parametrize(("direction", "warned"), [("X", True), ("Y", False)])
+def test_group_that_holds_nothing_in_its_direction_is_warned_of(beam, direction, warned):
+    group = Group("FAR", ("30",))
+    result = beam.solve(Shock("FLAT", direction, group="FAR"), groups=[group])
+    assert ("no support of group FAR holds the pipe in X" in result.warnings) == warned

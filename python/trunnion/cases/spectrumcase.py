@@ -91,6 +91,7 @@ class SpectrumPass:
         left = self._left_out(use, pushes) if use.missing_mass else None
         found = {name: self._largest(name, use, pushes, left) for name in NAMES}
         certificate = mode_certificate(self.modes)
+        remarks = _warnings(self.modes, use) + _below(self.modes, self.model, use)
         return CaseResult(
             name=case.name,
             kind="spectrum",
@@ -101,7 +102,7 @@ class SpectrumPass:
             converged=certificate.passed,
             cause=None if certificate.passed else f"{certificate.where} is not accurate",
             certificate=certificate,
-            warnings=_warnings(self.modes, use) + _below(self.modes, self.model, use),
+            warnings=remarks + _unmoved(self.system, pushes),
             linear=False,
             gathered=sizes(found["card_force"], found["local_force"]),
         )
@@ -205,6 +206,18 @@ def _below(modes: ModeSet, model: Model, use: SpectrumUse) -> tuple[str, ...]:
         f"{spectrum.frequency[0]:.4g} Hz is taken"
         for spectrum in spectra
         if lowest < spectrum.frequency[0] * (1.0 - 1e-9)
+    )
+
+
+def _unmoved(system: System, pushes: list[Push]) -> tuple[str, ...]:
+    """Say which groups hold nothing in the direction in which they are shaken."""
+    return tuple(
+        f"no support of group {push.shock.group} holds the pipe in {push.shock.direction}"
+        for push in pushes
+        if push.moves is not None
+        and not (
+            np.abs(system.contacts.normal[push.moves, :, AXES[push.shock.direction]]) > 1e-9
+        ).any()
     )
 
 

@@ -29,7 +29,7 @@ def text_report(results: Results, model: Model) -> bytes:
     """Write the whole report."""
     units = report_units(model.units)
     good = [case for case in results.cases.values() if is_good(case)]
-    asked = [case for case in with_cases(model).cases if isinstance(case, Case)]
+    own = [case for case in with_cases(model).cases if isinstance(case, Case)]
     parts = ["TRUNNION   static analysis of piping with nonlinear supports\n"]
     parts.append(f"{results.title or '(no title)'}\n")
     parts.append(chapter("1  SUMMARY"))
@@ -40,12 +40,12 @@ def text_report(results: Results, model: Model) -> bytes:
     sums = {name: case.text for name, case in results.cases.items()}
     parts.append(input_echo(model, results.system, sums, units))
     parts.append(chapter("3  LOADS ON RESTRAINTS"))
-    names = {c.name for c in asked if c.about}
+    names = {c.name for c in own if c.about}
     increments = [case.name for case in good if case.name in names]
     parts.append(restraint_summary(good, units, increments))
     parts.append(chapter("4  RESULTS BY CASE"))
     parts.append(wrapped(CERTIFIED, "") if results.cases else "\n  none\n")
-    locked = {c.name for c in asked if is_locked(c)}
+    locked = {c.name for c in own if is_locked(c)}
     parts += [_case(case, units, case.name in locked) for case in results.cases.values()]
     more: dict[str, list[str]] = {}
     if results.modes is not None:
