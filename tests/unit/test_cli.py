@@ -5,7 +5,6 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
@@ -189,9 +188,7 @@ def test_start_up_loads_nothing_heavy(home):
         "heavy = {'pint', 'fluids', 'h5py', 'scipy', 'matplotlib', 'rich', 'pandas'}\n"
         "print(sorted(heavy & set(sys.modules)))\n"
     )
-    start = time.perf_counter()
     found = subprocess.run(
         [sys.executable, "-c", script], capture_output=True, text=True, check=True
     )
     assert found.stdout == "[]\n"
-    assert time.perf_counter() - start < 5
