@@ -186,7 +186,6 @@ class Loads:
     preload : (n_card,) cold load of hangers when H acts, along `up` on the pipe [N].
     pressure : (n_elem,) for stresses [Pa].
     mux : factor on every mu.
-    thermal_only : nothing but strains and base movements acts.
     """
 
     dist: F8

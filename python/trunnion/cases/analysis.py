@@ -90,6 +90,7 @@ class Run:
         self.system = build_system(model)
         self.sets: LoadSets = load_sets(model, self.system)
         self.structures: dict[tuple[str, bool], Structure] = {}
+        self.questions: dict[str, Question] = {}
         self.found: dict[str, CaseResult] = {}
         self.ended: dict[str, Origin] = {}
         self.refused_modes: str | None = None
@@ -147,8 +148,14 @@ class Run:
         self.found[result.name] = result
 
     # ------------------------------------------------------------------ preparation
-    def question(self, case: Case, system: System | None = None) -> Question:
-        """A case with its loads (on another system than its own, if given) and its plan."""
+    def question(self, case: Case) -> Question:
+        """A case with its loads and its plan; made once."""
+        if case.name not in self.questions:
+            self.questions[case.name] = self.question_on(case, self.structure(case).system)
+        return self.questions[case.name]
+
+    def question_on(self, case: Case, system: System) -> Question:
+        """A case with its loads on a given system, and its plan."""
         settings = self.model.settings
         start = self.starts.get(case.name)
         plan = Plan(
@@ -160,7 +167,7 @@ class Run:
         return Question(
             case.name,
             case_text(case),
-            case_loads(self.model, system or self.structure(case).system, case, self.sets),
+            case_loads(self.model, system, case, self.sets),
             plan,
             case.place,
             case_warnings(self.sets, case),

@@ -12,7 +12,6 @@ from trunnion.model import Case, Modes
 from trunnion.solver.answer import at_rest
 from trunnion.solver.locked import frozen_system
 from trunnion.solver.modal import modes_of, with_friction
-from trunnion.solver.quantities import Sliding
 from trunnion.solver.structure import Structure
 
 if TYPE_CHECKING:
@@ -78,8 +77,7 @@ class Dynamics:
 def state_at_rest(structure: Structure) -> State:
     """Contacts of the undeformed pipe: closed where the gap is zero, nothing carried."""
     rest = at_rest(structure)
-    n = len(structure.sliders.mu)
-    law = Sliding(np.zeros(n), structure.sliders.kf, np.zeros(n), rest.datum)
+    law = structure.frictionless()
     nothing = np.zeros((structure.n_node, 6))
     response = structure.respond(rest.point, law, structure.still, nothing)
     system: System = structure.system

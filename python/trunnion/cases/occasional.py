@@ -111,7 +111,7 @@ class LockedPass:
     def _question(self, case: Case, structure: Structure) -> Question:
         """Loads of a locked case; movements and closed gaps of the frozen case stay out."""
         word = f"ABOUT={case.about}" if case.about else f"ON={case.on}"
-        question = self.run.question(case, structure.system)
+        question = self.run.question_on(case, structure.system)
         return replace(question, text=f"{case_text(case)} {word}")
 
     def _refused(self, case: Case, about: CaseResult, cause: str) -> CaseResult:
@@ -133,7 +133,7 @@ class LockedPass:
         if (self._hot(case) or own) != own:
             return self._refused(case, about, f"E=HOT with NONLINEAR, but {about.name} is not hot")
         structure = self.run.structure_of(own, snubbed=True)
-        question = self.run.question(case, structure.system)
+        question = self.run.question_on(case, structure.system)
         origin = self.run.ended[about.name]
         assert origin.loads is not None
         both = _together(origin.loads, origin.lock, question.loads)

@@ -30,7 +30,7 @@ from trunnion.model import Comb, Expression
 from trunnion.results.balance import local_end_forces, section_forces
 from trunnion.results.supports import gathered
 
-_LOADS = [field.name for field in fields(Loads) if field.name not in ("mux", "thermal_only")]
+_LOADS = [field.name for field in fields(Loads) if field.name != "mux"]
 _CARDS = ("card_force", "card_normal", "card_friction")
 _LINEAR = frozenset(("case", "+", "-", "*", "neg", "scalar"))
 

@@ -11,7 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from trunnion.arrays import F8
+from trunnion.arrays import F8, SLIP
 from trunnion.solver.coupled import coupled_step
 from trunnion.solver.history import History
 from trunnion.solver.newton import Outcome, relax, tangent_factor
@@ -97,7 +97,7 @@ def _targets(
     error = plain - sliding.capacity
     r = structure.residual(point, sliding, forcing)[0]
     size = np.sqrt((response.friction**2).sum(axis=1))
-    slips = (response.mode == 3) & (size > 0.0)
+    slips = (response.mode == SLIP) & (size > 0.0)
     along = np.where(slips, error / np.where(slips, size, 1.0), 0.0)
     force = along[:, None] * response.friction
     s = structure.sliders

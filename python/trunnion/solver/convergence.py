@@ -5,7 +5,7 @@ from math import cos, radians
 
 import numpy as np
 
-from trunnion.arrays import F8
+from trunnion.arrays import F8, SLIP
 from trunnion.solver.quantities import Response
 
 NORMAL = 0.01  # change of a normal force, of itself
@@ -75,7 +75,7 @@ def remaining_change(change: F8, earlier: F8 | None, u: F8) -> float:
 
 
 def _turned(before: Response, after: Response, force: float) -> bool:
-    slip = (after.mode == 3) & (after.capacity > force)
+    slip = (after.mode == SLIP) & (after.capacity > force)
     a, b = before.friction[slip], after.friction[slip]
     product = (a * b).sum(axis=1)
     return bool((product < TURN * _lengths(a) * _lengths(b)).any())

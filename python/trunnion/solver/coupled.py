@@ -6,7 +6,7 @@ never factored: GMRES on the symmetric factor of K takes a few solves.
 
 import numpy as np
 
-from trunnion.arrays import F8
+from trunnion.arrays import F8, SLIP
 from trunnion.solver.quantities import Response, Sliding
 from trunnion.solver.structure import Structure
 
@@ -16,7 +16,7 @@ SHARP = 1e-12  # of the right-hand side
 
 def coupled_step(structure: Structure, response: Response, sliding: Sliding, r: F8) -> F8:
     """Solve (K - C) p = r on the factor at hand; returns p (n_node, 6)."""
-    if not (response.mode == 3).any():
+    if not (response.mode == SLIP).any():
         return structure.solve(r)
 
     def product(f: F8) -> F8:

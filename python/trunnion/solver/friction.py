@@ -36,7 +36,6 @@ class Solved:
     response: Response
     sliding: Sliding
     cause: str | None = None
-    renewals: int = 0
 
 
 def solve_step(
@@ -162,7 +161,7 @@ def renew(
             what="capacities",
         )
         if not outcome.settled:
-            return Solved(False, outcome.response, sliding, _cause(outcome), i)
+            return Solved(False, outcome.response, sliding, _cause(outcome))
         new = sliding.mu * outcome.response.normal
         last, error = error, new - sliding.capacity
         change = float(np.abs(error).max(initial=0.0))
@@ -187,17 +186,17 @@ def damped(
     response: Response,
 ) -> Solved:
     """Renew by damped steps, each followed by a try of the coupled law."""
-    taken = blind = 0
+    blind = 0
     for _ in range(STEPS):
         better = None if blind else settle(structure, point, sliding, forcing, history, response)
         if better is None:
             blind = (blind + 1) % BLIND
             better = average(structure, point, sliding, forcing, history, response)
-        response, taken = better, taken + 1
+        response = better
         coupled = finish(structure, point, sliding, forcing, history)
         if coupled is not None:
             return coupled
-    return Solved(False, response, sliding, "the normal forces do not settle", taken)
+    return Solved(False, response, sliding, "the normal forces do not settle")
 
 
 def finish(

@@ -2,10 +2,9 @@
 
 import numpy as np
 
-from trunnion import kernels
 from trunnion.arrays import F8, no_contacts, no_sliders
 from trunnion.solver.pattern import build_pattern
-from trunnion.solver.pencil import Pencil
+from trunnion.solver.pencil import Pencil, add_masses
 
 TWELVE = 12
 
@@ -30,26 +29,11 @@ def element_masses(pencil: Pencil) -> F8:
     The elements are taken apart, so that the assembled lower triangle, by columns, holds one
     whole triangle an element after the other.
     """
-    structure, masses = pencil.structure, pencil.masses
-    s, n = structure.system, len(structure.ends)
+    structure, n = pencil.structure, len(pencil.structure.ends)
     apart = np.arange(2 * n, dtype=np.int32).reshape(n, 2)
     pattern = build_pattern(2 * n, apart, no_contacts(), no_sliders(), no_contacts())
     packed = np.zeros(len(pattern.row))
-    kernels.assemble_mass(
-        s.kind,
-        structure.form,
-        s.rigidity,
-        s.flex,
-        structure.k,
-        s.axes,
-        np.ascontiguousarray(masses.line),
-        np.ascontiguousarray(masses.inertia),
-        pencil.lumped,
-        apart,
-        pattern.element_rank,
-        pattern.colptr,
-        packed,
-    )
+    add_masses(structure, pencil.masses, pencil.lumped, apart, pattern, packed)
     column, row = np.triu_indices(TWELVE)
     whole = np.zeros((n, TWELVE, TWELVE))
     whole[:, row, column] = whole[:, column, row] = packed.reshape(n, -1)

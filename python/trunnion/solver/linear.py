@@ -4,14 +4,13 @@ import numpy as np
 
 from trunnion.solver.friction import Solved
 from trunnion.solver.newton import tangent_factor
-from trunnion.solver.quantities import Forcing, Point, Sliding
+from trunnion.solver.quantities import Forcing, Point
 from trunnion.solver.structure import Structure
 
 
 def solve_linear(structure: Structure, forcings: list[Forcing]) -> list[tuple[Point, Solved]]:
     """Solve every case in one call of the solver; an answer each."""
-    n = len(structure.sliders.mu)
-    law = Sliding(np.zeros(n), structure.sliders.kf, np.zeros(n), np.zeros((n, 3)))
+    law = structure.frictionless()
     points = [Point.zero(structure.n_node) for _ in forcings]
     starts = [
         structure.residual(point, law, forcing)

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from trunnion.arrays import F8, System
-from trunnion.solver.newton import PROXIMAL
-from trunnion.solver.quantities import Point, Response, Sliding
+from trunnion.solver.newton import proximal_factor
+from trunnion.solver.quantities import Point, Response
 from trunnion.solver.structure import Structure
 
 BLOCK = 8  # vectors iterated together
@@ -31,9 +31,7 @@ def null_motions(structure: Structure, tangent: F8, slider_tangent: F8) -> list[
     flexible lines have both.  The energy of the motion is: it is formed from deformations, so
     that it vanishes to round-off squared for a true mechanism only.
     """
-    shift = PROXIMAL * structure.scale
-    while not structure.factorise(tangent, slider_tangent, shift):
-        shift *= 100.0
+    proximal_factor(structure, tangent, slider_tangent)
     n = structure.n_node
     count = min(BLOCK, 6 * n)
     v = np.random.default_rng(1).normal(size=(count, n, 6))
@@ -96,11 +94,9 @@ def _separate(shapes: F8) -> F8:
 
 def _product(structure: Structure, tangent: F8, slider_tangent: F8, v: F8) -> F8:
     """K v with the elements' part formed from deformations."""
-    still = structure.still
-    ns = len(structure.sliders.mu)
-    frozen = Sliding(np.zeros(ns), structure.sliders.kf, np.zeros(ns), np.zeros((ns, 3)))
     v = np.ascontiguousarray(v)
-    r, _, response = structure.residual(Point(v, np.zeros_like(v)), frozen, still)
+    point = Point(v, np.zeros_like(v))
+    r, _, response = structure.residual(point, structure.frictionless(), structure.still)
     structure.scatter(-response.reaction, r)
     w = structure.gather(v)
     structure.scatter(-np.einsum("cij,cj->ci", tangent, w), r)

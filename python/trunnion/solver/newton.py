@@ -32,7 +32,6 @@ class Outcome:
     residual: float
     settled: bool
     runaway: bool = False
-    shifted: bool = False
 
 
 def relax(
@@ -58,23 +57,22 @@ def relax(
     r, _, response = structure.residual(point, sliding, forcing)
     changing = np.zeros_like(r)
     structure.respond(point, sliding, forcing, changing, changing=True)
-    shifted, calm = False, 0
+    calm = 0
     for i in range(limit):
         residual = float(np.abs(r).max())
         if i > 0 and residual <= tolerance:
-            return Outcome(response, r, residual, True, shifted=shifted)
+            return Outcome(response, r, residual, True)
         shift = tangent_factor(structure, response)
-        shifted |= shift > 0.0
         p = structure.solve(r)
         if not np.abs(p).max() < RUNAWAY * structure.size:
-            return Outcome(response, r, residual, False, runaway=True, shifted=shifted)
+            return Outcome(response, r, residual, False, runaway=True)
         step = 1.0
         if i >= full_steps or shift:
             push = float(np.vdot(r, p))
             stiff = push - shift * float(np.vdot(p, p))
             step = structure.search(point, sliding, forcing, p, (push, stiff))
             if not step * np.abs(p).max() < RUNAWAY * structure.size:
-                return Outcome(response, r, residual, False, runaway=True, shifted=shifted)
+                return Outcome(response, r, residual, False, runaway=True)
         r -= step * (r - shift * p)
         kernel_part = np.zeros_like(r)
         structure.changing_product(response, p, kernel_part)
@@ -90,7 +88,7 @@ def relax(
         if calm == CALM:
             full_steps, calm = i + 1 + FULL_STEPS, 0
     residual = float(np.abs(r).max())
-    return Outcome(response, r, residual, residual <= tolerance, shifted=shifted)
+    return Outcome(response, r, residual, residual <= tolerance)
 
 
 def tangent_factor(structure: Structure, response: Response) -> float:
@@ -98,9 +96,14 @@ def tangent_factor(structure: Structure, response: Response) -> float:
     sound = structure.factorise(response.tangent, response.slider_tangent)
     if sound and structure.rcond > TINY_PIVOT:
         return 0.0
+    return proximal_factor(structure, response.tangent, response.slider_tangent)
+
+
+def proximal_factor(structure: Structure, tangent: F8, slider_tangent: F8) -> float:
+    """Factor singular tangents with a small term on the diagonal; returns that term."""
     shift = PROXIMAL * structure.scale
     for _ in range(8):
-        if structure.factorise(response.tangent, response.slider_tangent, shift):
+        if structure.factorise(tangent, slider_tangent, shift):
             return shift
         shift *= 100.0
     raise ArithmeticError("the stiffness cannot be factored even with a large proximal term")

@@ -7,11 +7,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trunnion import kernels
-from trunnion.arrays import F8
+from trunnion.arrays import F8, I4
 from trunnion.errors import NotPositiveDefiniteError
 from trunnion.loads.masses import Masses
 from trunnion.solver.newton import TINY_PIVOT
-from trunnion.solver.quantities import Point, Sliding
+from trunnion.solver.pattern import Pattern
+from trunnion.solver.quantities import Point
 from trunnion.solver.structure import Structure
 
 if TYPE_CHECKING:
@@ -20,6 +21,28 @@ if TYPE_CHECKING:
 
 DENSE = 240  # freedoms with mass up to which M is looked at as a whole
 NO_MASS = 1e-10  # eigenvalue of M, scaled to a unit diagonal, that is zero
+
+
+def add_masses(
+    structure: Structure, masses: Masses, lumped: bool, ends: I4, pattern: Pattern, val: F8
+) -> None:
+    """Add the masses of a structure's elements, between the nodes `ends`, to a matrix."""
+    s = structure.system
+    kernels.assemble_mass(
+        s.kind,
+        structure.form,
+        s.rigidity,
+        s.flex,
+        structure.k,
+        s.axes,
+        np.ascontiguousarray(masses.line),
+        np.ascontiguousarray(masses.inertia),
+        lumped,
+        ends,
+        pattern.element_rank,
+        pattern.colptr,
+        val,
+    )
 
 
 class Pencil:
@@ -45,21 +68,7 @@ class Pencil:
         self.structure, self.masses, self.lumped = structure, masses, lumped
         self.mass = np.zeros(len(p.row))
         if len(structure.ends):
-            kernels.assemble_mass(
-                s.kind,
-                structure.form,
-                s.rigidity,
-                s.flex,
-                structure.k,
-                s.axes,
-                np.ascontiguousarray(masses.line),
-                np.ascontiguousarray(masses.inertia),
-                lumped,
-                structure.ends,
-                p.element_rank,
-                p.colptr,
-                self.mass,
-            )
+            add_masses(structure, masses, lumped, structure.ends, p, self.mass)
         translations = p.diagonal.reshape(-1, 6)[:, :3]
         self.mass[translations] += masses.lump[:, None]
         structure.ledger.add(mass=1)
@@ -108,8 +117,7 @@ class Pencil:
     def stiffness_product(self, points: "Sequence[Point]") -> F8:
         """K x, from deformations, in double-double as far as they go."""
         structure = self.structure
-        none = len(structure.sliders.mu)
-        law = Sliding(np.zeros(none), structure.sliders.kf, np.zeros(none), np.zeros((none, 3)))
+        law = structure.frictionless()
         rows = [structure.residual(point, law, structure.still)[0].ravel() for point in points]
         return -np.stack(rows)
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from trunnion.arrays import F8, I4
 from trunnion.solver.convergence import judge
-from trunnion.solver.friction import Solved
+from trunnion.solver.friction import STICKY, Solved
 from trunnion.solver.history import History
 from trunnion.solver.newton import RUNAWAY, tangent_factor
 from trunnion.solver.quantities import Forcing, Point, Response, Sliding
@@ -29,7 +29,6 @@ CALM = 50  # passes without any turn that clear the counts
 QUIET = 3  # passes without a change of state before a jump
 ALIGNED = 1e-6  # how nearly parallel two creeping steps are: 1 - cosine
 STEADY = 0.05  # how nearly equal two ratios are, of 1 - ratio
-STICKY = 1e300
 
 
 @dataclass(slots=True, eq=False, repr=False)

@@ -169,6 +169,11 @@ class Structure:
             loads.mux,
         )
 
+    def frictionless(self) -> Sliding:
+        """The law under which no support rubs."""
+        n = len(self.sliders.mu)
+        return Sliding(np.zeros(n), self.sliders.kf, np.zeros(n), np.zeros((n, 3)))
+
     @cached_property
     def still(self) -> Forcing:
         """No loads at all."""
@@ -179,7 +184,7 @@ class Structure:
 
     # ------------------------------------------------------------------ responses
     def respond(
-        self, point: "Point", sliding: Sliding, forcing: Forcing, r: F8, *, changing: bool = False
+        self, point: Point, sliding: Sliding, forcing: Forcing, r: F8, *, changing: bool = False
     ) -> Response:
         """Support forces at a point, added to r (only those that may change state, if asked)."""
         c, s = self.contacts, self.sliders
@@ -209,9 +214,7 @@ class Structure:
             ),
         )
 
-    def residual(
-        self, point: "Point", sliding: Sliding, forcing: Forcing
-    ) -> tuple[F8, F8, Response]:
+    def residual(self, point: Point, sliding: Sliding, forcing: Forcing) -> tuple[F8, F8, Response]:
         """Out-of-balance force at the nodes, end forces of the elements, support response."""
         r = forcing.nodal.copy()
         response = self.respond(point, sliding, forcing, r)
@@ -233,7 +236,7 @@ class Structure:
         return r, end, response
 
     def search(
-        self, point: "Point", sliding: Sliding, forcing: Forcing, p: F8, work: tuple[float, float]
+        self, point: Point, sliding: Sliding, forcing: Forcing, p: F8, work: tuple[float, float]
     ) -> float:
         """Length of the step along p at which the energy of fixed capacities is least."""
         c, s = self.contacts, self.sliders

@@ -9,7 +9,7 @@ from trunnion.results.balance import local_forces
 from trunnion.results.supports import contact_sums
 from trunnion.solver.inertia import element_inertia
 from trunnion.solver.pencil import Pencil
-from trunnion.solver.quantities import Point, Sliding
+from trunnion.solver.quantities import Point
 from trunnion.solver.structure import Structure
 
 
@@ -43,7 +43,7 @@ def recover(pencil: Pencil, modes: ModeSet, system: System, u: F8, low: F8, iner
     ends, reactions = [], []
     for high, rest, own in zip(u, low, inside, strict=True):
         point = Point(np.ascontiguousarray(high), np.ascontiguousarray(rest))
-        _, end, response = structure.residual(point, _without_friction(structure), structure.still)
+        _, end, response = structure.residual(point, structure.frictionless(), structure.still)
         end = end - own
         ends.append(np.stack([end[:n_elem, 0], end[modes.last, 1]], axis=1))
         reactions.append(response.reaction[: len(system.contacts.k)])
@@ -93,7 +93,7 @@ def influence(structure: Structure, moves: B1 | None, direction: int) -> F8:
         return r
     base = np.zeros_like(structure.still.base)
     base[: len(moves)][moves, direction] = 1.0
-    law, forcing = _without_friction(structure), replace(structure.still, base=base)
+    law, forcing = structure.frictionless(), replace(structure.still, base=base)
     force, _, _ = structure.residual(Point.zero(n_node), law, forcing)
     hold(structure)
     return structure.solve(force)
@@ -103,11 +103,6 @@ def hold(structure: Structure) -> None:
     """Have the factor of the stiffness ready."""
     still = structure.still
     _, _, response = structure.residual(
-        Point.zero(structure.n_node), _without_friction(structure), still
+        Point.zero(structure.n_node), structure.frictionless(), still
     )
     structure.factorise(response.tangent, response.slider_tangent)
-
-
-def _without_friction(structure: Structure) -> Sliding:
-    n = len(structure.sliders.mu)
-    return Sliding(np.zeros(n), structure.sliders.kf, np.zeros(n), np.zeros((n, 3)))

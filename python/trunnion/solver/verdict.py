@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from trunnion.arrays import F8, State
+from trunnion.arrays import ENGAGED, F8, OPEN, SLIP, State
 from trunnion.solver.convergence import judge
 from trunnion.solver.coupled import coupled_step
 from trunnion.solver.newton import tangent_factor
@@ -14,7 +14,6 @@ from trunnion.solver.structure import Structure
 REFINEMENTS = 8
 SHARP = 1e-13  # next correction that ends the refinement, relative
 CHORD = 1e-4  # difference of slider tangents for which the factor at hand will do
-SLIP, OPEN, ENGAGED = 3, 0, 1
 NOTHING = 1e-6  # a displacement that the penalty effect does not speak of [m]
 
 
@@ -80,15 +79,20 @@ def corrections(
     """Size of a correction p relative to the largest displacement and reaction."""
     u = _travel(structure, point.u)
     du = _travel(structure, p)
+    rubbed = after.friction - before.friction
+    pushed = after.reaction - before.reaction
+    return du / max(u, 1e-300), _relative(structure, pushed, before, rubbed)
+
+
+def _relative(
+    structure: Structure, change: F8, response: Response, rubbed: F8 | None = None
+) -> float:
+    """Change of reactions (and friction) relative to the largest force and moment."""
     rotational = structure.contacts.rotational
-    force = max(1.0, _largest(before.reaction[~rotational]))
-    moment = max(force, _largest(before.reaction[rotational]))
-    change = np.abs(after.reaction - before.reaction)
-    slide = _largest(after.friction - before.friction) / force
-    return (
-        du / max(u, 1e-300),
-        max(_largest(change[~rotational]) / force, _largest(change[rotational]) / moment, slide),
-    )
+    force = max(1.0, _largest(response.reaction[~rotational]))
+    moment = max(force, _largest(response.reaction[rotational]))
+    slide = 0.0 if rubbed is None else _largest(rubbed) / force
+    return max(_largest(change[~rotational]) / force, _largest(change[rotational]) / moment, slide)
 
 
 def _travel(structure: Structure, u: F8) -> float:
@@ -117,14 +121,10 @@ def _penalty(
     structure.scatter(pushed, load)
     du = structure.solve(load)
     dw = structure.gather(du)
-    dr = np.where(closed[:, None], response.reaction, 0.0)
-    dr = dr - np.einsum("cij,cj->ci", response.tangent, dw)
-    rotational = c.rotational
-    force = max(1.0, _largest(response.reaction[~rotational]))
-    moment = max(force, _largest(response.reaction[rotational]))
+    dr = pushed - np.einsum("cij,cj->ci", response.tangent, dw)
     effect = {
         "u": _travel(structure, du) / max(_travel(structure, point.u), NOTHING),
-        "R": max(_largest(dr[~rotational]) / force, _largest(dr[rotational]) / moment),
+        "R": _relative(structure, dr, response),
     }
     return du, dr[:n], effect
 
