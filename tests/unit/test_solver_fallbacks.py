@@ -7,7 +7,8 @@ import pytest
 
 import trunnion
 from trunnion.arrays import OPEN, SLIP, STICK
-from trunnion.cli import FAILED, SOLVED, main
+from trunnion.cli import main
+from trunnion.commands.shared import FAILED, SOLVED
 from trunnion.deck.reader import read_text
 
 DECKS = Path(__file__).parents[1] / "decks"

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 import trunnion
-from trunnion.cli import BAD_INPUT, FAILED, SOLVED, main
+from trunnion.cli import main
+from trunnion.commands.shared import BAD_INPUT, FAILED, SOLVED
 from trunnion.deck.reader import read_text
 from trunnion.errors import ModelError
 

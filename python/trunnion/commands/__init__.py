@@ -1,0 +1,10 @@
+"""The commands of the command line, one a module; a command is imported when it is called for.
+
+Each module has a click command of its own name, and gives the exit code back.
+"""
+
+#: name on the command line -> line of help; the module has the same name
+COMMANDS = {
+    "check": "Read DECK, look for mechanisms and missing loads; solve and write nothing.",
+    "run": "Solve DECK; write <stem>.out and <stem>.json.",
+}
