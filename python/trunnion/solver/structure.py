@@ -247,19 +247,27 @@ class Structure:
         return r, end, response
 
     def exact(
-        self, point: Point, sliding: Sliding, forcing: Forcing
+        self, point: Point, sliding: Sliding, forcing: Forcing, bias: F8
     ) -> tuple[F8, Point, F8, Response]:
-        """Like `residual`, with every element; also the displacements of all nodes."""
+        """Like `residual`, with every element; also the displacements of all nodes.
+
+        `bias` (n_member, 6), zero at first, keeps what makes the next call shorter.
+        """
         r = forcing.nodal.copy()
         response = self.respond(point, sliding, forcing, r)
-        every, end = end_forces(self.members, self.system, forcing, point, r)
+        every, end = end_forces(self.members, self.system, forcing, point, r, bias)
         self.ledger.add(elements=self.members.elements)
         return r, every, end, response
 
+    def unbiased(self) -> F8:
+        """Start of the `bias` of `exact`."""
+        return np.zeros((len(self.members.ends), 6))
+
     def expand(self, v: F8) -> F8:
         """Displacements of all nodes for those of the equations, without loads (n_node, 6)."""
-        point = Point(v, np.zeros_like(v))
-        every, _ = end_forces(self.members, self.system, self.still, point, np.zeros_like(v))
+        point, bias = Point(v, np.zeros_like(v)), self.unbiased()
+        r = np.zeros_like(v)
+        every, _ = end_forces(self.members, self.system, self.still, point, r, bias, most=1)
         return every.u
 
     def search(
