@@ -20,17 +20,19 @@ from trunnion.solver.linear import solve_linear
 from trunnion.solver.quantities import Point
 from trunnion.solver.steps import Origin, Plan
 from trunnion.solver.structure import Structure
-from trunnion.system import build_system, hot_system
+from trunnion.system import build_system, hot_system, same_elements, shares_pattern
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Start:
     """A start of the iterations of one case, for the search of other answers.
 
-    capacity : (n_slider,) first friction capacities mu N [N].
+    capacity : (n_slider,) first friction capacities mu N [N]; None: the usual search for them.
+    u : (n_node, 6) first displacements [m, rad]; None: those of the undeformed pipe.
     """
 
-    capacity: F8
+    capacity: F8 | None = None
+    u: F8 | None = None
 
 
 def solve(model: Model, *, starts: Mapping[str, Start] | None = None) -> Results:
@@ -58,6 +60,10 @@ def solve(model: Model, *, starts: Mapping[str, Start] | None = None) -> Results
         return free
 
 
+def _own(array: F8 | None) -> F8 | None:
+    return None if array is None else np.array(array, np.float64)
+
+
 def _free_modes(model: Model) -> Results | None:
     """Modes alone, where a deck that names no case asks for those of a structure that is free."""
     if not may_be_free(model):
@@ -82,13 +88,27 @@ def solve_system(
 
 
 class Run:
-    """One run over a model: structures by modulus set, answers by case."""
+    """One run over a model: structures by modulus set, answers by case.
 
-    def __init__(self, model: Model, starts: Mapping[str, Start]) -> None:
-        self.model, self.starts = model, starts
-        self.ledger = Ledger()
-        self.system = build_system(model)
-        self.sets: LoadSets = load_sets(model, self.system)
+    A run that is `like` another has the same nodes, elements and supports with other numbers: it
+    shares ledger and symbolic analysis, and the elements' stiffness where that is the same.
+    """
+
+    def __init__(
+        self,
+        model: Model,
+        starts: Mapping[str, Start],
+        *,
+        like: "Run | None" = None,
+        prepared: tuple[System, LoadSets] | None = None,
+    ) -> None:
+        self.model, self.starts, self.like = model, starts, like
+        self.ledger: Ledger = Ledger() if like is None else like.ledger
+        if prepared is None:
+            self.system = build_system(model)
+            self.sets = load_sets(model, self.system)
+        else:
+            self.system, self.sets = prepared
         self.structures: dict[tuple[str, bool], Structure] = {}
         self.questions: dict[str, Question] = {}
         self.found: dict[str, CaseResult] = {}
@@ -162,7 +182,8 @@ class Run:
             steps=case.steps,
             events=settings.events if case.events is None else case.events,
             iteration=case.iteration or settings.iteration,
-            capacity=None if start is None else np.array(start.capacity, np.float64),
+            capacity=None if start is None else _own(start.capacity),
+            u=None if start is None else _own(start.u),
         )
         return Question(
             case.name,
@@ -196,8 +217,18 @@ class Run:
                 self.structures[key] = Structure(system, self.ledger, parent, keep)
             else:
                 system = hot_system(self.model, self.system, which) if which else self.system
-                self.structures[key] = Structure(system, self.ledger)
+                self.structures[key] = self._structure(system, key)
         return self.structures[key]
+
+    def _structure(self, system: System, key: tuple[str, bool]) -> Structure:
+        if self.like is None:
+            return Structure(system, self.ledger)
+        base = self.like.structure_of(key[0])
+        if not shares_pattern(base.system, system):
+            return Structure(system, self.ledger)
+        if same_elements(base.system, system):
+            return Structure(system, self.ledger, base)
+        return Structure(system, self.ledger, like=base)
 
     def _solve_linear(self, cases: list[Case]) -> dict[str, tuple[Point, Solved]]:
         """Where nothing can change, all cases of one modulus take one solve."""

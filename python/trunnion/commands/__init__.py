@@ -8,4 +8,5 @@ COMMANDS = {
     "batch": "Solve many DECKS; skip those that are finished.",
     "check": "Read DECK, look for mechanisms and missing loads; solve and write nothing.",
     "run": "Solve DECK; write <stem>.out and <stem>.json.",
+    "study": "Solve variants of DECK on one symbolic analysis; envelope of support loads.",
 }
