@@ -13,7 +13,6 @@ from trunnion.arrays import ARC, F8, I4, SPRING, Loads, System
 from trunnion.solver.chains import Chains, find_chains
 from trunnion.solver.quantities import Forcing, Inside, Point
 
-
 SWEEPS = 6  # through a chain, until it closes
 
 
