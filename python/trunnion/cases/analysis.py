@@ -8,6 +8,7 @@ import numpy as np
 from trunnion.arrays import F8, CaseResult, CycleResult, Loads, ModeSet, Results, System
 from trunnion.cases.casetext import case_text, in_order
 from trunnion.cases.default_cases import may_be_free, with_cases
+from trunnion.cases.session import Session
 from trunnion.cases.snubbed import go_on, locked_at_rest
 from trunnion.errors import ModelError
 from trunnion.loads import LoadSets, case_loads, case_warnings, load_sets
@@ -33,12 +34,18 @@ class Start:
     capacity: F8
 
 
-def solve(model: Model, *, starts: Mapping[str, Start] | None = None) -> Results:
+def solve(
+    model: Model,
+    *,
+    starts: Mapping[str, Start] | None = None,
+    session: Session | None = None,
+) -> Results:
     """Solve every case and combination of a model; one without cases takes default ones.
 
     Parameters
     ----------
     starts : other starts of the iterations by case name; the law solved is the same.
+    session : what earlier solves left; see `Session`.
 
     Raises
     ------
@@ -49,7 +56,7 @@ def solve(model: Model, *, starts: Mapping[str, Start] | None = None) -> Results
     """
     model.check()
     try:
-        return Run(with_cases(model), starts or {}).results()
+        return Run(with_cases(model), starts or {}, session).results()
     except ModelError as error:
         free = _free_modes(model)
         if free is None:
@@ -84,8 +91,11 @@ def solve_system(
 class Run:
     """One run over a model: structures by modulus set, answers by case."""
 
-    def __init__(self, model: Model, starts: Mapping[str, Start]) -> None:
+    def __init__(
+        self, model: Model, starts: Mapping[str, Start], session: Session | None = None
+    ) -> None:
         self.model, self.starts = model, starts
+        self.session = session or Session()
         self.ledger = Ledger()
         self.system = build_system(model)
         self.sets: LoadSets = load_sets(model, self.system)
@@ -196,7 +206,7 @@ class Run:
                 self.structures[key] = Structure(system, self.ledger, parent, keep)
             else:
                 system = hot_system(self.model, self.system, which) if which else self.system
-                self.structures[key] = Structure(system, self.ledger)
+                self.structures[key] = self.session.structure(key, system, self.ledger)
         return self.structures[key]
 
     def _solve_linear(self, cases: list[Case]) -> dict[str, tuple[Point, Solved]]:
@@ -207,8 +217,11 @@ class Run:
             if not structure.changes:
                 groups.setdefault(id(structure), []).append(case)
         prepared: dict[str, tuple[Point, Solved]] = {}
-        for group in groups.values():
-            structure = self.structure(group[0])
+        for asked in groups.values():
+            structure = self.structure(asked[0])
+            group = [c for c in asked if not self.session.recall(structure, self.question(c), None)]
+            if not group:
+                continue
             forcings = [forcing_of(structure, self.question(case)) for case in group]
             answers = solve_linear(structure, forcings)
             refuse_mechanisms(structure)
@@ -247,9 +260,15 @@ class Run:
     ) -> tuple[CaseResult, Origin | None]:
         """Solve one case from where another ended, or from rest."""
         structure, locked = self.structure(case), case.snubbers == "LOCKED"
+        found = self.session.recall(structure, question, origin)
+        if found is not None:
+            return found
+        asked, begun = question, origin
         if origin is not None:
             loads, origin = go_on(self.system, structure, origin, question.loads, locked=locked)
             question = replace(question, loads=loads)
         elif locked:
             origin = locked_at_rest(structure)
-        return answer(structure, question, origin, prepared)
+        found = answer(structure, question, origin, prepared)
+        self.session.keep(structure, asked, begun, found)
+        return found
