@@ -8,6 +8,7 @@ import numpy as np
 from trunnion.arrays import F8, CaseResult, CycleResult, Loads, ModeSet, Results, System
 from trunnion.cases.casetext import case_text, in_order
 from trunnion.cases.default_cases import may_be_free, with_cases
+from trunnion.cases.session import Session, same_pipe
 from trunnion.cases.snubbed import go_on, locked_at_rest
 from trunnion.errors import ModelError
 from trunnion.loads import LoadSets, case_loads, case_warnings, load_sets
@@ -20,7 +21,7 @@ from trunnion.solver.linear import solve_linear
 from trunnion.solver.quantities import Point
 from trunnion.solver.steps import Origin, Plan
 from trunnion.solver.structure import Structure
-from trunnion.system import build_system, hot_system, same_elements, shares_pattern
+from trunnion.system import build_system, hot_system, shares_pattern
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -35,12 +36,18 @@ class Start:
     u: F8 | None = None
 
 
-def solve(model: Model, *, starts: Mapping[str, Start] | None = None) -> Results:
+def solve(
+    model: Model,
+    *,
+    starts: Mapping[str, Start] | None = None,
+    session: Session | None = None,
+) -> Results:
     """Solve every case and combination of a model; one without cases takes default ones.
 
     Parameters
     ----------
     starts : other starts of the iterations by case name; the law solved is the same.
+    session : what earlier solves left; see `Session`.
 
     Raises
     ------
@@ -51,7 +58,7 @@ def solve(model: Model, *, starts: Mapping[str, Start] | None = None) -> Results
     """
     model.check()
     try:
-        return Run(with_cases(model), starts or {}).results()
+        return Run(with_cases(model), starts or {}, session).results()
     except ModelError as error:
         free = _free_modes(model)
         if free is None:
@@ -98,11 +105,13 @@ class Run:
         self,
         model: Model,
         starts: Mapping[str, Start],
+        session: Session | None = None,
         *,
         like: "Run | None" = None,
         prepared: tuple[System, LoadSets] | None = None,
     ) -> None:
         self.model, self.starts, self.like = model, starts, like
+        self.session = session or Session()
         self.ledger: Ledger = Ledger() if like is None else like.ledger
         if prepared is None:
             self.system = build_system(model)
@@ -222,11 +231,11 @@ class Run:
 
     def _structure(self, system: System, key: tuple[str, bool]) -> Structure:
         if self.like is None:
-            return Structure(system, self.ledger)
+            return self.session.structure(key, system, self.ledger)
         base = self.like.structure_of(key[0])
         if not shares_pattern(base.system, system):
             return Structure(system, self.ledger)
-        if same_elements(base.system, system):
+        if same_pipe(base.system, system):
             return Structure(system, self.ledger, base)
         return Structure(system, self.ledger, like=base)
 
@@ -238,8 +247,11 @@ class Run:
             if not structure.changes:
                 groups.setdefault(id(structure), []).append(case)
         prepared: dict[str, tuple[Point, Solved]] = {}
-        for group in groups.values():
-            structure = self.structure(group[0])
+        for asked in groups.values():
+            structure = self.structure(asked[0])
+            group = [c for c in asked if not self.session.recall(structure, self.question(c), None)]
+            if not group:
+                continue
             forcings = [forcing_of(structure, self.question(case)) for case in group]
             answers = solve_linear(structure, forcings)
             refuse_mechanisms(structure)
@@ -278,9 +290,15 @@ class Run:
     ) -> tuple[CaseResult, Origin | None]:
         """Solve one case from where another ended, or from rest."""
         structure, locked = self.structure(case), case.snubbers == "LOCKED"
+        found = self.session.recall(structure, question, origin)
+        if found is not None:
+            return found
+        asked, begun = question, origin
         if origin is not None:
             loads, origin = go_on(self.system, structure, origin, question.loads, locked=locked)
             question = replace(question, loads=loads)
         elif locked:
             origin = locked_at_rest(structure)
-        return answer(structure, question, origin, prepared)
+        found = answer(structure, question, origin, prepared)
+        self.session.keep(structure, asked, begun, found)
+        return found

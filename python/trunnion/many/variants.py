@@ -18,7 +18,7 @@ from trunnion.cases.casetext import needs
 from trunnion.cases.default_cases import with_cases
 from trunnion.deck.values import nearest
 from trunnion.errors import BatchError, DeckError, ModelError
-from trunnion.loads import LoadSets
+from trunnion.loads import LoadSets, load_sets
 from trunnion.many.axes import Axis
 from trunnion.model import Case, Comb, Model
 from trunnion.results.supports import (
@@ -30,6 +30,7 @@ from trunnion.results.supports import (
     is_good,
     without_sign,
 )
+from trunnion.system import with_supports
 
 Combination = tuple[int, ...]  # number of the value on each axis
 
@@ -171,10 +172,10 @@ def _fill(base: Prepared, combination: Combination, cache: "_Cache", out: Answer
 
 @dataclass(slots=True, eq=False, repr=False)
 class _Cache:
-    """Systems and load sets of a block by the values that they depend on."""
+    """What the variants of a block share, by the values that it depends on."""
 
-    systems: dict[Combination, System] = field(default_factory=dict)
-    supports: dict[tuple[Combination, Combination], System] = field(default_factory=dict)
+    runs: dict[Combination, Run] = field(default_factory=dict)
+    systems: dict[tuple[Combination, Combination], System] = field(default_factory=dict)
     sets: dict[tuple[Combination, Combination], LoadSets] = field(default_factory=dict)
 
 
@@ -182,38 +183,35 @@ def _solve(base: Prepared, combination: Combination, cache: _Cache) -> dict[str,
     model = base.model
     for axis, i in zip(base.axes, combination, strict=True):
         model = axis.edit(model, axis.values[i])
-    system, sets = _made_anew(base, model, combination, cache)
-    run = Run(model, _warm(base, model, system), like=base.run, prepared=(system, sets))
+    like, system, sets = _made_anew(base, model, combination, cache)
+    run = Run(model, _warm(base, model, system), like=like, prepared=(system, sets))
     return run.results().cases
 
 
 def _made_anew(
     base: Prepared, model: Model, combination: Combination, cache: _Cache
-) -> tuple[System, LoadSets]:
-    """System and load sets of a variant, from those before it where they are the same."""
-    from trunnion.loads import load_sets
-    from trunnion.system import build_system, with_supports
-
-    key = {
-        level: tuple(
-            i for axis, i in zip(base.axes, combination, strict=True) if axis.level == level
-        )
+) -> tuple[Run, System, LoadSets]:
+    """System and load sets of a variant, and the run that has its elements; each made once."""
+    members, supports, loads = (
+        tuple(i for axis, i in zip(base.axes, combination, strict=True) if axis.level == level)
         for level in ("members", "supports", "loads")
-    }
-    members, supports, loads = key["members"], key["supports"], key["loads"]
-    if members and members not in cache.systems:
-        model.check()
-        cache.systems[members] = build_system(model)
-    system = cache.systems[members] if members else base.run.system
+    )
+    home = base.run
+    if members:
+        if members not in cache.runs:
+            model.check()
+            cache.runs[members] = Run(model, {}, like=base.run)
+        home = cache.runs[members]
+    system, sets = home.system, home.sets
     if supports:
-        if (members, supports) not in cache.supports:
-            cache.supports[members, supports] = with_supports(model, system)
-        system = cache.supports[members, supports]
-    if not members and not loads:
-        return system, base.run.sets
-    if (members, loads) not in cache.sets:
-        cache.sets[members, loads] = load_sets(model, system)
-    return system, cache.sets[members, loads]
+        if (members, supports) not in cache.systems:
+            cache.systems[members, supports] = with_supports(model, home.system)
+        system = cache.systems[members, supports]
+    if loads:
+        if (members, loads) not in cache.sets:
+            cache.sets[members, loads] = load_sets(model, system)
+        sets = cache.sets[members, loads]
+    return home, system, sets
 
 
 def _warm(base: Prepared, model: Model, system: System) -> dict[str, Start]:

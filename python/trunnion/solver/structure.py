@@ -88,6 +88,13 @@ class Structure:
         self.ledger.add(elements=m.elements, assemble=1)
         return pipe
 
+    def turn_to(self, system: System, ledger: Ledger) -> None:
+        """Serve a system with the same numbers, and count work in another ledger from now on."""
+        self.system, self.ledger = system, ledger
+        self.__dict__.pop("full", None)
+        if self.box.spd is not None:
+            ledger.begin(self.box, self.box.spd.work)
+
     @cached_property
     def full(self) -> "Structure":
         """The structure with every node and element: for modes, and to name motions."""

@@ -85,15 +85,6 @@ def with_supports(model: Model, system: System) -> System:
     )
 
 
-def same_elements(a: System, b: System) -> bool:
-    """Tell whether two systems have the same elements, number for number."""
-    return all(
-        getattr(a, f.name) is getattr(b, f.name)
-        or np.array_equal(getattr(a, f.name), getattr(b, f.name))
-        for f in fields(Elements)
-    )
-
-
 def shares_pattern(a: System, b: System) -> bool:
     """Tell whether two systems join the same nodes; sliders on ground add nothing to a pattern."""
     same = a.labels == b.labels and np.array_equal(a.ends, b.ends)
