@@ -14,13 +14,13 @@ import numpy as np
 
 from trunnion.arrays import F8, I4, CaseResult, System
 from trunnion.cases.analysis import Run, Start
-from trunnion.cases.casetext import needs
+from trunnion.cases.casetext import needed
 from trunnion.cases.default_cases import with_cases
 from trunnion.deck.values import nearest
 from trunnion.errors import BatchError, DeckError, ModelError
 from trunnion.loads import LoadSets, load_sets
 from trunnion.many.axes import Axis
-from trunnion.model import Case, Comb, Model
+from trunnion.model import Case, Model
 from trunnion.results.supports import (
     STATES,
     card_forces,
@@ -93,7 +93,7 @@ def prepare(model: Model, axes: tuple[Axis, ...], names: Sequence[str], *, warm:
     if missing:
         raise BatchError("\n".join([*missing, "nothing was solved"]))
     wanted = tuple(n for n in known if n in names or not names)
-    chosen = replace(chosen, cases=_needed(chosen, wanted), cycles=[])
+    chosen = replace(chosen, cases=needed(chosen, wanted), cycles=[])
     if not any(isinstance(case, Case) and case.spectrum for case in chosen.cases):
         chosen = replace(chosen, modal=None)
     run = Run(chosen, {})
@@ -104,21 +104,6 @@ def prepare(model: Model, axes: tuple[Axis, ...], names: Sequence[str], *, warm:
     if warm:
         prepared.warm = _starts(run)
     return prepared
-
-
-def _needed(model: Model, wanted: Sequence[str]) -> list[Case | Comb]:
-    """Keep the cases that are wanted and those that they need, in the deck's order."""
-    by_name = {case.name: case for case in model.cases}
-    found, todo = set(), list(wanted)
-    while todo:
-        name = todo.pop()
-        if name not in found and name in by_name:
-            found.add(name)
-            todo += needs(by_name[name])
-            spectrum = isinstance(by_name[name], Case) and by_name[name].spectrum  # type: ignore[union-attr]
-            if spectrum and model.modal is not None and model.modal.about:
-                todo.append(model.modal.about)
-    return [case for case in model.cases if case.name in found]
 
 
 def _starts(run: Run) -> dict[str, tuple[F8, F8]]:
