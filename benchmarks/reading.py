@@ -4,7 +4,7 @@
 
 A model is a neutral pipe rack (schema piperack-1, may be gzipped), written as a deck in memory.
 `read` is deck text to Model, `build` is Model to numbered arrays.  Each time is the median of
-the repeats; the machine's instruction counter, where Linux gives it, does not waver as times do.
+the repeats.  tests/unit/test_reading_work.py guards the same by counts, which do not waver.
 """
 
 import argparse

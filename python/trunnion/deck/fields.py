@@ -80,7 +80,8 @@ def read_fields(record: Record, items: list[Any], fields: Fields, complain: Comp
     complain : takes each fault and the index of the word at fault.
     """
     wanted, readers, required, least = fields.forms[record.keyword]
-    keys, args, at = record.keys, record.args, 0
+    keys, args, most, at = record.keys, record.args, len(wanted), 0
+    strange = False
     for i, item in enumerate(items, 1):
         if isinstance(item, tuple):
             name, value = item
@@ -91,8 +92,9 @@ def read_fields(record: Record, items: list[Any], fields: Fields, complain: Comp
                     keys[name] = None
                     complain(_named(name, fault), i)
             else:
+                strange = True
                 read_key(keys, i, item, record.keyword, readers, complain)
-        elif at < len(wanted):
+        elif at < most:
             reader, number = wanted[at]
             at += 1
             try:
@@ -105,8 +107,9 @@ def read_fields(record: Record, items: list[Any], fields: Fields, complain: Comp
             else:
                 args.append(found)
         else:
-            complain(_one_too_many(str(item), record.keyword, len(wanted)), i)
-    if len(keys) + len(args) < len(items):
+            strange = True
+            complain(_one_too_many(str(item), record.keyword, most), i)
+    if strange:
         return  # a misspelling is told; what is missing may be what was meant
     if at < least:
         missing = [p for p in KEYWORDS[record.keyword].positionals[at:] if not p.optional]

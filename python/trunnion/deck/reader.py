@@ -134,14 +134,13 @@ class _Reading:
             read_directions(record, _items(card.text), fields, self._hear)
         else:
             read_fields(record, _items(card.text), fields, self._hear)
-        before = len(self.faults)
-        if self.heard:
-            self.faults += [Fault(record.place, record.head, *said) for said in self.heard]
-            self.heard.clear()
-        else:
+        if not self.heard:
             apply(self.context, record)
-        if len(self.faults) > before:
-            self.context.give_up(record)
+            if len(self.faults) == self.context.before:
+                return
+        self.faults += [Fault(record.place, record.head, *said) for said in self.heard]
+        self.heard.clear()
+        self.context.give_up(record)
 
     def _hear(self, message: str, mark: Mark) -> None:
         """Take note of a fault of the card that is being read."""
