@@ -45,7 +45,7 @@ bench: build
 
 # The debug build keeps its own directory; only what the Fortran tests need is built in it.
 debug-test: $(READY)
-	@test -f build/debug/build.ninja || $(BIN)/meson setup build/debug --buildtype=debug --werror \
+	@test -f build/debug/build.ninja || $(BIN)/meson setup build/debug --buildtype=debug --werror -Db_lto=false \
 	    -Db_sanitize=address,undefined
 	@$(BIN)/meson test -C build/debug --print-errorlogs
 

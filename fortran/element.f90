@@ -11,7 +11,7 @@ module element
    use status_codes, only: status_bad_section, status_ok, status_zero_length
    implicit none (type, external)
    private
-   public :: kind_arc, kind_spring, kind_straight
+   public :: invert, kind_arc, kind_spring, kind_straight
    public :: tip_deformation, tip_flexibility, tip_resultant, tip_stiffness
 
    integer(ip), parameter :: kind_straight = 0_ip, kind_arc = 1_ip, kind_spring = 2_ip

@@ -82,7 +82,7 @@ class Scene:
 
 def scene(deck):
     """Modes from static flexibilities: with one mass they are exact."""
-    structure = Structure(build_system(read_text(deck, "one_mass.inp")), Ledger())
+    structure = Structure(build_system(read_text(deck, "one_mass.inp")), Ledger(), whole=True)
     at = structure.system.labels.index("20")
     hold(structure)
     unit = np.zeros((3, structure.n_node, 6))

@@ -84,8 +84,8 @@ def state_at_rest(structure: Structure) -> State:
     contacts, sliders = len(system.contacts.k), len(system.sliders.mu)
     flat = np.zeros((sliders, 3))
     return State(
-        u=rest.point.u,
-        u_low=rest.point.low,
+        u=np.zeros((len(system.labels), 6)),
+        u_low=np.zeros((len(system.labels), 6)),
         end_force=np.zeros((len(system.ends), 2, 6)),
         side=response.side[:contacts],
         reaction=response.reaction[:contacts],

@@ -34,7 +34,7 @@ def go_on(
     before = np.zeros_like(begun.base) if origin.lock is None else origin.lock
     now = np.zeros_like(before)
     if locked:
-        now = _position(system, origin) if origin.lock is None else origin.lock
+        now = _position(system, structure, origin) if origin.lock is None else origin.lock
     start = replace(begun, base=begun.base - before + now)
     forcing = structure.forcing(start)
     lock = now if locked else None
@@ -44,11 +44,12 @@ def go_on(
     )
 
 
-def _position(system: System, origin: Origin) -> F8:
+def _position(system: System, structure: Structure, origin: Origin) -> F8:
     """(n_card, 6) movement of each snubber against its ground or its other end."""
     assert origin.loads is not None
     u, s = origin.point.u + origin.point.low, system.snubbers
     out = np.zeros_like(origin.loads.base)
-    other = np.where((s.cnode >= 0)[:, None], u[s.cnode], 0.0)
-    out[s.card] = u[s.node] - other - origin.loads.base[s.card]
+    node, cnode = structure.number(s.node), structure.number(s.cnode)
+    other = np.where((s.cnode >= 0)[:, None], u[cnode], 0.0)
+    out[s.card] = u[node] - other - origin.loads.base[s.card]
     return out

@@ -17,6 +17,9 @@ DECK = click.argument("deck", type=click.Path(path_type=Path))
 FOLDER = click.option(
     "-o", "folder", type=click.Path(path_type=Path), default=Path(), help="Where the files go."
 )
+JOBS = click.option(
+    "-j", "jobs", type=click.IntRange(1), help="Processes at a time; one a core if not given."
+)
 
 
 class InputError(Exception):

@@ -53,6 +53,7 @@ class Deck:
     last: int = 0  # line of the end of the main file
     bytes: int = 0
     files: int = 0
+    sources: list[str] = field(default_factory=list)  # the deck and its includes
 
 
 def read_cards(path: str | os.PathLike[str]) -> Deck:
@@ -99,6 +100,7 @@ def _text_of(path: Path, deck: Deck, place: Place, card: Card | None) -> str | N
         refuse(f"cannot read {path}: {reason}")
         return None
     deck.files += 1
+    deck.sources.append(str(path))
     deck.bytes += len(data)
     if deck.bytes > MAX_BYTES:
         refuse(f"{path}: the deck with its includes is over {MAX_BYTES // 10**6} MB")

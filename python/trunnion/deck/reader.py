@@ -35,6 +35,17 @@ def read(path: str | os.PathLike[str]) -> Model:
         return _read(read_cards(path))
 
 
+def read_sources(path: str | os.PathLike[str]) -> tuple[Model, tuple[str, ...]]:
+    """Read a deck; give also the files it is made of.
+
+    Raises
+    ------
+    DeckError : as `read`.
+    """
+    deck = read_cards(path)
+    return _read(deck), tuple(deck.sources)
+
+
 def read_text(text: str, file: str = "<text>") -> Model:
     """Read a deck given as text; `file` stands in the errors."""
     with paused():

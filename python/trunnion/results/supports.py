@@ -184,12 +184,21 @@ class Envelope:
 def envelope(cases: Sequence[CaseResult]) -> Envelope:
     """Find the largest and the smallest of each component of every support's load."""
     force, sizes = np.stack([card_forces(c) for c in cases]), [without_sign(c) for c in cases]
-    both = np.stack(sizes)
+    return extremes(force, np.stack(sizes))
+
+
+def extremes(force: F8, both: B1, alike: float = 0.0) -> Envelope:
+    """Extremes over the first index of (n, n_card, 6); `both` tells what acts both ways.
+
+    Where several come within `alike` of the size of the extreme, the first of them is named.
+    """
     size = np.abs(force).max(axis=0)
     halves = [size[:, :3].max(initial=0.0), size[:, 3:].max(initial=0.0)]
     nothing = size <= 1e-9 * np.repeat(halves, 3)
     upper, lower = np.where(both, np.abs(force), force), np.where(both, -np.abs(force), force)
-    high, low = upper.argmax(axis=0), lower.argmin(axis=0)
+    near = alike * size
+    high = (upper >= upper.max(axis=0) - near).argmax(axis=0)
+    low = (lower <= lower.min(axis=0) + near).argmax(axis=0)
     return Envelope(
         np.take_along_axis(upper, high[None], axis=0)[0],
         np.take_along_axis(lower, low[None], axis=0)[0],

@@ -86,13 +86,14 @@ def at_rest(structure: Structure) -> Origin:
 def forcing_of(structure: Structure, question: Question) -> Forcing:
     """Kernel loads of a case; an error where a load acts on a freedom that does not exist."""
     forcing = structure.forcing(question.loads)
+    labels = structure.system.labels
     loose = np.argwhere(structure.absent & (forcing.nodal != 0.0))
     if len(loose):
         raise ModelError(
             [
                 Problem(
                     question.place,
-                    f"CASE {question.name}: node {structure.system.labels[i]} is loaded in "
+                    f"CASE {question.name}: node {labels[structure.kept[i]]} is loaded in "
                     f"{FREEDOMS[j]}, where nothing resists",
                 )
                 for i, j in loose

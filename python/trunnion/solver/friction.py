@@ -228,8 +228,8 @@ def force_scale(structure: Structure, forcing: Forcing) -> float:
     """A force that round-off is measured against: loads, and strains times stiffness [N]."""
     scale = max(1.0, float(np.abs(forcing.nodal).max(initial=0.0)))
     scale = max(scale, float(np.abs(forcing.resultant).max(initial=0.0)))
-    if len(structure.k):
-        thermal = np.einsum("eij,ej->ei", structure.k, forcing.free)
+    if len(structure.members.k):
+        thermal = np.einsum("eij,ej->ei", structure.members.k, forcing.free)
         scale = max(scale, float(np.abs(thermal).max()))
     moved = np.abs(forcing.base).max(axis=1, initial=0.0) * structure.contacts.k
     return max(

@@ -2,13 +2,13 @@
 
 import numpy as np
 
-from trunnion.arrays import Contacts, Sliders, System
+from trunnion.arrays import Contacts, Sliders
 
 
-def contacts_of(system: System) -> Contacts:
+def contacts_of(contacts: Contacts) -> Contacts:
     """The model's contacts, or one that never closes."""
-    if len(system.contacts.node):
-        return system.contacts
+    if len(contacts.node):
+        return contacts
     return Contacts(
         node=np.zeros(1, np.int32),
         cnode=np.full(1, -1, np.int32),
@@ -24,10 +24,10 @@ def contacts_of(system: System) -> Contacts:
     )
 
 
-def sliders_of(system: System) -> Sliders:
+def sliders_of(sliders: Sliders) -> Sliders:
     """The model's sliders, or one without friction."""
-    if len(system.sliders.node):
-        return system.sliders
+    if len(sliders.node):
+        return sliders
     return Sliders(
         node=np.zeros(1, np.int32),
         cnode=np.full(1, -1, np.int32),

@@ -15,10 +15,11 @@ def element_inertia(pencil: Pencil, x: F8) -> F8:
     Lumped masses stand at the nodes: no element carries their inertia.
     """
     structure = pencil.structure
-    n, m = len(structure.ends), len(x)
+    ends, m = structure.members.ends, len(x)
+    n = len(ends)
     if pencil.lumped or n == 0:
         return np.zeros((m, n, 2, 6))
-    moved = x[:, structure.ends].reshape(m, n, TWELVE)
+    moved = x[:, ends].reshape(m, n, TWELVE)
     force: F8 = np.einsum("eij,mej->mei", element_masses(pencil), moved)
     return force.reshape(m, n, 2, 6)
 
@@ -29,7 +30,7 @@ def element_masses(pencil: Pencil) -> F8:
     The elements are taken apart, so that the assembled lower triangle, by columns, holds one
     whole triangle an element after the other.
     """
-    structure, n = pencil.structure, len(pencil.structure.ends)
+    structure, n = pencil.structure, len(pencil.structure.members.ends)
     apart = np.arange(2 * n, dtype=np.int32).reshape(n, 2)
     pattern = build_pattern(2 * n, apart, no_contacts(), no_sliders(), no_contacts())
     packed = np.zeros(len(pattern.row))

@@ -31,6 +31,7 @@ def null_motions(structure: Structure, tangent: F8, slider_tangent: F8) -> list[
     flexible lines have both.  The energy of the motion is: it is formed from deformations, so
     that it vanishes to round-off squared for a true mechanism only.
     """
+    structure = structure.full
     proximal_factor(structure, tangent, slider_tangent)
     n = structure.n_node
     count = min(BLOCK, 6 * n)

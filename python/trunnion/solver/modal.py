@@ -39,9 +39,10 @@ def modes_of(
     for _ in range(MESHES):
         mesh = _mesh(frozen, masses, card, cut)
         if mesh.added:
-            structure = Structure(mesh.system, ledger)
+            structure = Structure(mesh.system, ledger, whole=True)
         else:
-            structure = Structure(frozen, ledger, parent, keep)
+            above = None if parent is None else parent.full
+            structure = Structure(frozen, ledger, above, keep, whole=True)
         inner = masses.parted(mesh.part_of, len(mesh.system.labels))
         pencil = Pencil(structure, inner, lumped=card.mass == "LUMPED", rotary=card.rotary)
         found = natural_modes(pencil, card.n, fmax=card.fmax, mesh=mesh, place=card.place)

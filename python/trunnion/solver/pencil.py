@@ -30,10 +30,10 @@ def add_masses(
     s = structure.system
     kernels.assemble_mass(
         s.kind,
-        structure.form,
+        structure.members.form,
         s.rigidity,
         s.flex,
-        structure.k,
+        structure.members.k,
         s.axes,
         np.ascontiguousarray(masses.line),
         np.ascontiguousarray(masses.inertia),
@@ -60,6 +60,7 @@ class Pencil:
     def __init__(
         self, structure: Structure, masses: Masses, *, lumped: bool, rotary: bool = True
     ) -> None:
+        structure = structure.full
         p, s = structure.pattern, structure.system
         assert s.contacts.two_way.all()
         assert not len(s.sliders.node)
@@ -67,8 +68,8 @@ class Pencil:
             masses = masses.without_rotary(torsion=not lumped)
         self.structure, self.masses, self.lumped = structure, masses, lumped
         self.mass = np.zeros(len(p.row))
-        if len(structure.ends):
-            add_masses(structure, masses, lumped, structure.ends, p, self.mass)
+        if len(structure.members.ends):
+            add_masses(structure, masses, lumped, structure.members.ends, p, self.mass)
         translations = p.diagonal.reshape(-1, 6)[:, :3]
         self.mass[translations] += masses.lump[:, None]
         structure.ledger.add(mass=1)

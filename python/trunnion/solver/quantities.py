@@ -9,12 +9,33 @@ from trunnion.arrays import F8, I4
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Inside:
+    """Loads of elements and of all nodes: what members made of several elements hold inside.
+
+    free, resultant : (n_elem, 6), nodal : (n_node, 6); as in `Forcing`.
+    """
+
+    free: F8
+    resultant: F8
+    nodal: F8
+
+    def mixed(self, a: float, other: "Inside", b: float) -> "Inside":
+        """A times these and b times others."""
+        return Inside(
+            a * self.free + b * other.free,
+            a * self.resultant + b * other.resultant,
+            a * self.nodal + b * other.nodal,
+        )
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Forcing:
     """Loads as the kernels take them; linear, so that steps are mixtures of two.
 
-    free : (n_elem, 6) free tip deformation, element axes [m, rad].
-    resultant : (n_elem, 6) of the distributed load, about end 1 [N, N m].
-    nodal : (n_node, 6).
+    free : (n_member, 6) free tip deformation, member's axes [m, rad].
+    resultant : (n_member, 6) of the distributed load, about the base [N, N m].
+    nodal : (n_node, 6) at the nodes of the equations [N, N m].
+    inside : loads of the elements that the members are made of.
     base : (n_contact, 3), slider_base : (n_slider, 3) movement under the supports.
     preload : (n_contact, 3) cold loads of hangers on the pipe [N].
     """
@@ -22,6 +43,7 @@ class Forcing:
     free: F8
     resultant: F8
     nodal: F8
+    inside: Inside
     base: F8
     slider_base: F8
     preload: F8
@@ -34,10 +56,14 @@ class Forcing:
         return self._mixed(1.0 - t, other, t)
 
     def _mixed(self, a: float, other: "Forcing", b: float) -> "Forcing":
+        inside = self.inside
+        if not (inside.free is self.free and inside.nodal is self.nodal):
+            inside = inside.mixed(a, other.inside, b)
         return Forcing(
             a * self.free + b * other.free,
             a * self.resultant + b * other.resultant,
             a * self.nodal + b * other.nodal,
+            inside,
             a * self.base + b * other.base,
             a * self.slider_base + b * other.slider_base,
             a * self.preload + b * other.preload,

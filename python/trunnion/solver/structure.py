@@ -5,12 +5,20 @@ from functools import cached_property
 import numpy as np
 
 from trunnion import kernels
-from trunnion.arrays import ARC, F8, I4, SPRING, Loads, System
+from trunnion.arrays import F8, I4, Loads, System
 from trunnion.errors import NotPositiveDefiniteError
+from trunnion.solver.chains import at_kept_nodes
 from trunnion.solver.inert import contacts_of, sliders_of
 from trunnion.solver.ledger import Ledger
-from trunnion.solver.pattern import build_pattern
-from trunnion.solver.quantities import Forcing, Point, Response, Sliding
+from trunnion.solver.members import (
+    chain_members,
+    end_forces,
+    member_end_forces,
+    member_loads,
+    whole_members,
+)
+from trunnion.solver.pattern import Pattern, build_pattern
+from trunnion.solver.quantities import Forcing, Inside, Point, Response, Sliding
 
 
 class Box:
@@ -26,9 +34,15 @@ class Box:
 class Structure:
     """Kernel arrays of one `System`, analysed once, with one factor that is renewed on demand.
 
+    It sees chains of elements as one member each (`solver.members`), and only the nodes between
+    them, unless it is `whole`.
+
     A structure with a `parent` is the same pipe on other supports (frozen contacts, locked
-    snubbers): it shares the parent's elements, pattern, symbolic analysis and factor.  `keep`
+    snubbers): it shares the parent's members, pattern, symbolic analysis and factor.  `keep`
     numbers its contacts among the contacts and then the snubbers of the parent's system.
+
+    One that is `like` another has the same nodes, joined in the same way, with other numbers: it
+    shares pattern and symbolic analysis.
     """
 
     def __init__(
@@ -37,48 +51,76 @@ class Structure:
         ledger: Ledger,
         parent: "Structure | None" = None,
         keep: I4 | None = None,
+        *,
+        whole: bool = False,
+        like: "Structure | None" = None,
     ) -> None:
         self.system, self.ledger = system, ledger
-        self.contacts, self.sliders = contacts_of(system), sliders_of(system)
-        self.n_node = len(system.labels)
         self.shifted = self.checked = False  # a singular tangent was met; it was looked into
-        self.keep = keep
+        self.keep, self.parent, self.like = keep, parent, like
         if parent is None:
-            self.pattern = build_pattern(
-                self.n_node, system.ends, self.contacts, self.sliders, system.snubbers
-            )
-            self.box = Box()
-            self._elements()
+            self.members = whole_members(system) if whole else chain_members(system)
+            self.box: Box = Box() if like is None else like.box
         else:
-            self._share(parent)
+            self.members, self.box = parent.members, parent.box
+        chains = self.members.chains
+        self.n_node = len(system.labels) if chains is None else len(chains.kept)
+        contacts, sliders, snubbers = system.contacts, system.sliders, system.snubbers
+        if chains is not None:
+            contacts, sliders, snubbers = at_kept_nodes(system, chains)
+        self.contacts, self.sliders = contacts_of(contacts), sliders_of(sliders)
+        if parent is None:
+            joined = self.members.ends, self.contacts, self.sliders, snubbers
+            self.pattern: Pattern = like.pattern if like else build_pattern(self.n_node, *joined)
+            self.pipe = self._assemble()
+        else:
+            self.pattern, self.pipe = parent.pattern, parent.pipe
+            self.parent_rank = parent.rank[: len(parent.system.contacts.node)]
         self._supports()
         self._linear()
 
-    def _elements(self) -> None:
-        s, p = self.system, self.pattern
-        self.ends = np.ascontiguousarray(s.ends, np.int32)
-        self.d = _tips(s)
-        self.form = np.column_stack((s.length, s.radius, s.angle))
-        self.k = kernels.element_stiffness(
-            s.kind, self.form, s.rigidity, s.flex, s.spring, s.axes, self.d
-        )
-        self.pipe = np.zeros(len(p.row))  # values of the elements alone
-        if len(self.ends):
-            kernels.assemble_elements(
-                self.k, s.axes, self.d, self.ends, p.element_rank, p.colptr, self.pipe
-            )
-        self.ledger.add(elements=len(s.ends), assemble=1)
+    def _assemble(self) -> F8:
+        """Values of the members alone."""
+        m, p = self.members, self.pattern
+        pipe = np.zeros(len(p.row))
+        if len(m.ends):
+            kernels.assemble_elements(m.k, m.axes, m.d, m.ends, p.element_rank, p.colptr, pipe)
+        self.ledger.add(elements=m.elements, assemble=1)
+        return pipe
 
-    def _share(self, parent: "Structure") -> None:
-        self.pattern, self.box = parent.pattern, parent.box
-        self.ends, self.d, self.form = parent.ends, parent.d, parent.form
-        self.k, self.pipe = parent.k, parent.pipe
-        self.parent_rank = parent.rank[: len(parent.system.contacts.node)]
+    def turn_to(self, system: System, ledger: Ledger) -> None:
+        """Serve a system with the same numbers, and count work in another ledger from now on."""
+        self.system, self.ledger = system, ledger
+        self.__dict__.pop("full", None)
+        if self.box.spd is not None:
+            ledger.begin(self.box, self.box.spd.work)
+
+    @cached_property
+    def full(self) -> "Structure":
+        """The structure with every node and element: for modes, and to name motions."""
+        if self.members.chains is None:
+            return self
+        if self.parent is None:
+            like = None if self.like is None else self.like.full
+            return Structure(self.system, self.ledger, whole=True, like=like)
+        return Structure(self.system, self.ledger, self.parent.full, self.keep)
+
+    @cached_property
+    def kept(self) -> I4:
+        """(n_node,) numbers of the equations' nodes in the model."""
+        chains = self.members.chains
+        return np.arange(self.n_node, dtype=np.int32) if chains is None else chains.kept
+
+    def number(self, node: I4) -> I4:
+        """Numbers of the model's nodes among those of the equations."""
+        chains = self.members.chains
+        return node if chains is None else chains.place[node]
 
     def _supports(self) -> None:
         c, s = self.contacts, self.sliders
         p = self.pattern
-        self.rank = rank = p.contact_rank if self.keep is None else self._kept_rank()
+        rank = p.contact_rank if self.keep is None else self._kept_rank()
+        self.rank: I4 = rank
         offset = np.where(c.rotational, 3, 0)
         at = np.column_stack((c.node, c.cnode, rank, offset, c.dim, c.two_way))
         self.at = np.ascontiguousarray(at, np.int32)
@@ -130,31 +172,21 @@ class Structure:
     @cached_property
     def reach(self) -> float:
         """Length of the largest element [m]; 1 where there is none."""
-        d: F8 = np.sqrt((self.d * self.d).sum(axis=1))
+        arm = self.members.arm
+        d: F8 = np.sqrt((arm * arm).sum(axis=1))
         return float(d.max(initial=0.0)) or 1.0
 
     @cached_property
     def scale(self) -> float:
-        """Largest diagonal of the elements' stiffness [N/m], a size for proximal terms."""
-        return float(np.abs(self.k).max()) if len(self.k) else 1.0
+        """Largest diagonal of the members' stiffness [N/m], a size for proximal terms."""
+        k = self.members.k
+        return float(np.abs(k).max()) if len(k) else 1.0
 
     # ------------------------------------------------------------------ loads
     def forcing(self, loads: Loads) -> Forcing:
         """Kernel form of a case's loads."""
         s, c = self.system, self.contacts
-        if len(self.ends):
-            free, resultant = kernels.element_loads(
-                s.kind,
-                self.form,
-                s.rigidity,
-                s.flex,
-                s.axes,
-                np.ascontiguousarray(loads.dist),
-                loads.strain,
-                loads.curvature,
-            )
-        else:
-            free = resultant = np.zeros((0, 6))
+        free, resultant, nodal, inside = member_loads(self.members, s, loads)
         moved, cold = loads.base, loads.preload
         if not len(moved):  # a model without supports, before it is refused as a mechanism
             moved, cold = np.zeros((1, 6)), np.zeros(1)
@@ -162,7 +194,8 @@ class Structure:
         return Forcing(
             free,
             resultant,
-            np.ascontiguousarray(loads.nodal),
+            nodal,
+            inside,
             np.ascontiguousarray(base),
             np.ascontiguousarray(moved[self.sliders.card, :3]),
             np.ascontiguousarray(cold[c.card, None] * s.up),
@@ -177,10 +210,14 @@ class Structure:
     @cached_property
     def still(self) -> Forcing:
         """No loads at all."""
-        n, c, m = len(self.ends), len(self.at), len(self.slider_at)
-        six = np.zeros((n, 6))
-        nodal = np.zeros((self.n_node, 6))
-        return Forcing(six, six, nodal, np.zeros((c, 3)), np.zeros((m, 3)), np.zeros((c, 3)), 1.0)
+        c, m = len(self.at), len(self.slider_at)
+        six, nodal = np.zeros((len(self.members.ends), 6)), np.zeros((self.n_node, 6))
+        inside = Inside(six, six, nodal)
+        if self.members.chains is not None:
+            every = np.zeros((self.members.elements, 6))
+            inside = Inside(every, every, np.zeros((len(self.system.labels), 6)))
+        three = np.zeros((c, 3))
+        return Forcing(six, six, nodal, inside, three, np.zeros((m, 3)), three, 1.0)
 
     # ------------------------------------------------------------------ responses
     def respond(
@@ -215,25 +252,36 @@ class Structure:
         )
 
     def residual(self, point: Point, sliding: Sliding, forcing: Forcing) -> tuple[F8, F8, Response]:
-        """Out-of-balance force at the nodes, end forces of the elements, support response."""
+        """Out-of-balance force at the nodes, end forces of the members, support response."""
         r = forcing.nodal.copy()
         response = self.respond(point, sliding, forcing, r)
-        if len(self.ends):
-            end = kernels.element_end_forces(
-                self.ends,
-                self.system.axes,
-                self.d,
-                self.k,
-                forcing.free,
-                forcing.resultant,
-                point.u,
-                point.low,
-                r,
-            )
-        else:
-            end = np.zeros((0, 2, 6))
-        self.ledger.add(elements=len(self.ends))
+        end = member_end_forces(self.members, forcing, point, r)
+        self.ledger.add(elements=len(self.members.ends))
         return r, end, response
+
+    def exact(
+        self, point: Point, sliding: Sliding, forcing: Forcing, bias: F8
+    ) -> tuple[F8, Point, F8, Response]:
+        """Like `residual`, with every element; also the displacements of all nodes.
+
+        `bias` (n_member, 6), zero at first, keeps what makes the next call shorter.
+        """
+        r = forcing.nodal.copy()
+        response = self.respond(point, sliding, forcing, r)
+        every, end = end_forces(self.members, self.system, forcing, point, r, bias)
+        self.ledger.add(elements=self.members.elements)
+        return r, every, end, response
+
+    def unbiased(self) -> F8:
+        """Start of the `bias` of `exact`."""
+        return np.zeros((len(self.members.ends), 6))
+
+    def expand(self, v: F8) -> F8:
+        """Displacements of all nodes for those of the equations, without loads (n_node, 6)."""
+        point, bias = Point(v, np.zeros_like(v)), self.unbiased()
+        r = np.zeros_like(v)
+        every, _ = end_forces(self.members, self.system, self.still, point, r, bias, most=1)
+        return every.u
 
     def search(
         self, point: Point, sliding: Sliding, forcing: Forcing, p: F8, work: tuple[float, float]
@@ -273,8 +321,8 @@ class Structure:
         ):
             return True
         box = self.box
-        if box.spd is None:
-            box.spd = kernels.SpdFactor(self.pattern.colptr, self.pattern.row)
+        self.analyse()
+        assert box.spd is not None
         val = self.val
         if self.changes:
             val = val.copy()
@@ -290,6 +338,12 @@ class Structure:
             self.ledger.follow(box, box.spd.work)
         box.owner, box.held = self, (tangent, slider_tangent, shift)
         return True
+
+    def analyse(self) -> None:
+        """Make the symbolic analysis, unless there is one."""
+        if self.box.spd is None:
+            self.box.spd = kernels.SpdFactor(self.pattern.colptr, self.pattern.row)
+            self.ledger.follow(self.box, self.box.spd.work)
 
     def solve(self, r: F8) -> F8:
         """Displacements (n_node, 6) of the factored stiffness under r; or (m, n_node, 6)."""
@@ -345,12 +399,3 @@ class Structure:
         paired = self.at[:, 1] >= 0
         w[paired] -= p[self.at[paired, 1:2], columns[paired]]
         return w
-
-
-def _tips(s: System) -> F8:
-    """(n_elem, 3) from the first to the second end; large coordinates would cost digits [m]."""
-    along = np.where(s.kind == ARC, s.radius * np.sin(s.angle), s.length)
-    inward = s.radius * 2.0 * np.sin(0.5 * s.angle) ** 2
-    d = along[:, None] * s.axes[:, 0] + inward[:, None] * s.axes[:, 1]
-    apart = s.xyz[s.ends[:, 1]] - s.xyz[s.ends[:, 0]]
-    return np.ascontiguousarray(np.where((s.kind == SPRING)[:, None], apart, d))

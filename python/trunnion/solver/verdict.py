@@ -38,7 +38,8 @@ def report_numbers(
     law = replace(sliding, capacity=sliding.capacity.copy(), coupled=True)
     structure.ledger.refining = True
     try:
-        r, end, response = structure.residual(point, law, forcing)
+        bias = structure.unbiased()
+        r, every, end, response = structure.exact(point, law, forcing, bias)
         best = (np.inf, np.inf)
         shift = 0.0
         for i in range(REFINEMENTS):
@@ -46,20 +47,20 @@ def report_numbers(
             p = coupled_step(structure, response, law, r)
             trial = point.copy()
             trial.move(p)
-            after = structure.residual(trial, law, forcing)
-            left = corrections(structure, p, point, response, after[2])
+            after = structure.exact(trial, law, forcing, bias)
+            left = corrections(structure, p, point, response, after[3])
             # a reaction is a difference of displacements: it may lag behind them by one pass
             better = any(new < old for new, old in zip(left, best, strict=True))
             if not better or max(left) <= SHARP or i == REFINEMENTS - 1:
                 break
             best = left
             point.become(trial)
-            r, end, response = after
-        broken = judge(response, after[2], p, None, point.u).broken
+            r, every, end, response = after
+        broken = judge(response, after[3], p, None, point.u).broken
         penalty_u, penalty_r, effect = _penalty(structure, point, response)
     finally:
         structure.ledger.refining = False
-    state = _state(structure, point, law, response, end)
+    state = _state(structure, every, law, response, end)
     return Reported(state, *left, penalty_u, penalty_r, effect, shift > 0.0, broken)
 
 
@@ -126,7 +127,7 @@ def _penalty(
         "u": _travel(structure, du) / max(_travel(structure, point.u), NOTHING),
         "R": _relative(structure, dr, response),
     }
-    return du, dr[:n], effect
+    return structure.expand(du), dr[:n], effect
 
 
 def _state(structure: Structure, point: Point, law: Sliding, response: Response, end: F8) -> State:

@@ -1,0 +1,120 @@
+"""A study for programs: JSON and CSV, in SI, support forces on the pipe."""
+
+import csv
+import io
+
+import numpy as np
+
+from trunnion.arrays import I4
+from trunnion.many.study import Study
+from trunnion.report.encode import dump, finite, lines, listing, records, rows, words
+from trunnion.results.supports import STATES, card_ids
+
+COMPONENTS = ("FX", "FY", "FZ", "MX", "MY", "MZ")
+
+
+def study_json(study: Study) -> bytes:
+    """Write the whole file: axes, variants with states and certificates, envelopes."""
+    axes = (
+        dump({"name": a.name, "values": list(a.values), "texts": list(a.texts)}) for a in study.axes
+    )
+    parts = {
+        "schema": "1",
+        "title": dump(study.title),
+        "axes": listing(axes),
+        "cases": dump(list(study.cases)),
+        "variants": listing(dump(_variant(study, i)) for i in range(len(study.names))),
+        "envelope": lines({name: _envelope(study, name) for name in study.cases}),
+        "work": dump(study.work),
+    }
+    return (lines(parts) + "\n").encode()
+
+
+def _variant(study: Study, i: int) -> dict[str, object]:
+    a = study.answers
+    cases = {}
+    for j, name in enumerate(study.cases):
+        good = a.cause[i][j] is None
+        states = {word: int(n) for word, n in zip(STATES, a.count[i, j], strict=True) if n}
+        cases[name] = {
+            "converged": good,
+            "cause": a.cause[i][j],
+            "certificate": {"worst": finite(float(a.worst[i, j])), "where": a.where[i][j]},
+            "states": states,
+        }
+    return {
+        "variant": i + 1,
+        "name": study.names[i],
+        "values": study.values[i].tolist(),
+        "cases": cases,
+    }
+
+
+def _envelope(study: Study, name: str) -> str:
+    found = study.envelope(name)
+    if found is None:
+        return "[]"
+    extremes, good = found
+    cards = study.system.cards
+
+    def variants(which: I4) -> list[str]:
+        chosen = np.where(which < 0, 0, good[which] + 1)
+        return [dump([v or None for v in row]) for row in chosen.tolist()]
+
+    return listing(
+        records(
+            {
+                "id": words(card_ids(cards)),
+                "name": words(card.name for card in cards),
+                "max": rows(extremes.highest),
+                "max_variant": variants(extremes.highest_case),
+                "min": rows(extremes.lowest),
+                "min_variant": variants(extremes.lowest_case),
+            }
+        )
+    )
+
+
+def envelope_csv(study: Study) -> bytes:
+    """Write one row a case, support and component; loads on the pipe in N and N m."""
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    head = ["case", "support", "name", "component", "unit", "max", "max_variant", "min"]
+    writer.writerow([*head, "min_variant", "max_values", "min_values"])
+    ids = card_ids(study.system.cards)
+    for name in study.cases:
+        found = study.envelope(name)
+        if found is None:
+            continue
+        e, good = found
+        for i, card in enumerate(study.system.cards):
+            for k, component in enumerate(COMPONENTS):
+                ends = [
+                    ("", "") if which < 0 else (int(good[which]) + 1, study.names[good[which]])
+                    for which in (e.highest_case[i, k], e.lowest_case[i, k])
+                ]
+                writer.writerow(
+                    [
+                        name, ids[i], card.name, component, "N" if k < 3 else "N m",
+                        repr(float(e.highest[i, k]) + 0.0), ends[0][0],
+                        repr(float(e.lowest[i, k]) + 0.0), ends[1][0], ends[0][1], ends[1][1],
+                    ]
+                )  # fmt: skip
+    return out.getvalue().encode()
+
+
+def variants_csv(study: Study) -> bytes:
+    """Write one row a variant and case: values in SI, states, certificate, cause."""
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    names = [axis.name for axis in study.axes]
+    writer.writerow(["variant", *names, "case", "converged", "certificate", *STATES, "cause"])
+    a = study.answers
+    for i in range(len(study.names)):
+        for j, name in enumerate(study.cases):
+            good = a.cause[i][j] is None
+            worst = repr(float(a.worst[i, j])) if good else ""
+            values = [repr(value) for value in study.values[i].tolist()]
+            row = [i + 1, *values, name, int(good), worst, *a.count[i, j].tolist()]
+            writer.writerow([*row, a.cause[i][j] or ""])
+    return out.getvalue().encode()
