@@ -1,7 +1,7 @@
 """All cases of a model, in order: `trunnion.solve(model)`."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from trunnion.cases.default_cases import may_be_free, with_cases
 from trunnion.cases.session import Session, same_pipe
 from trunnion.cases.snubbed import go_on, locked_at_rest
 from trunnion.errors import ModelError
+from trunnion.frozen import frozen
 from trunnion.loads import LoadSets, case_loads, case_warnings, load_sets
 from trunnion.model import Case, Comb, Model
 from trunnion.results.combine import combine
@@ -24,7 +25,7 @@ from trunnion.solver.structure import Structure
 from trunnion.system import build_system, hot_system, shares_pattern
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@frozen(eq=False)
 class Start:
     """A start of the iterations of one case, for the search of other answers.
 

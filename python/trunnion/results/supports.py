@@ -1,7 +1,6 @@
 """What each support card carries: the contacts and sliders of a case, gathered by card."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +19,7 @@ from trunnion.arrays import (
     State,
     System,
 )
+from trunnion.frozen import frozen
 
 STATES = ("open", "engaged", "stick", "slip", "free", "locked")
 FREE, LOCKED = 4, 5  # of snubbers
@@ -168,7 +168,7 @@ def without_sign(case: CaseResult) -> B1:
     return alike
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@frozen(eq=False)
 class Envelope:
     """Extremes over cases, each (n_card, 6), on the pipe; the cases as numbers.
 
