@@ -45,7 +45,7 @@ def solve_model(model: "Model", spread: int = 0) -> "Results":
     """Solve every case; with `spread` look for other answers from so many starts."""
     import trunnion
 
-    results: Results = trunnion.solve(model, spread=spread)
+    results: Results = trunnion.solve(model, spread=spread) if spread else trunnion.solve(model)
     return results
 
 
