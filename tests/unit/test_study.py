@@ -201,6 +201,23 @@ def test_a_warm_start_finds_the_same_answers_in_fewer_passes(model):
     assert warm.work["iterations"] < cold.work["iterations"]
 
 
+def test_only_some_cases_of_a_deck_are_solved(model):
+    part = trunnion.study(model, ["MUX@OPE=0.5,1", "FACTOR@T1=1,2"], cases=["EXP"], jobs=1)
+    whole = trunnion.study(model, ["MUX@OPE=0.5,1", "FACTOR@T1=1,2"], jobs=1)
+    assert part.cases == ("EXP",)
+    assert np.array_equal(part.forces("EXP"), whole.forces("EXP"))
+    alone = trunnion.study(model, ["MUX@OPE=0.5,1"], cases=["OPE"], jobs=1)  # without SUS before it
+    assert np.array_equal(alone.forces("OPE"), whole.forces("OPE")[::2])
+    assert alone.work["solve"] < whole.work["solve"]
+
+
+def test_a_deck_without_cases_has_its_default_ones():
+    model = read_text(DECK[: DECK.index("CASE")], "none.inp")
+    done = trunnion.study(model, ["MUX@OPE=0.5,1", "T1=100,200"], jobs=1)
+    assert not done.failures
+    assert {"SUS", "OPE", "EXP"} <= set(done.cases)
+
+
 def test_friction_of_nothing_is_a_variant_like_others(model):
     done = trunnion.study(model, ["MU=0,0.3"], jobs=1)
     assert not done.failures

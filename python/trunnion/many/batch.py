@@ -99,7 +99,8 @@ def _solve_here(
     tick: Callable[[], None] | None,
 ) -> Generator[Entry, None, None]:
     """Solve decks in forked processes."""
-    _load()
+    if todo:
+        _load()
     ends = run_forked(
         todo,
         lambda deck: solve_deck(deck, place, settings),

@@ -48,6 +48,9 @@ def solve_there(
             except (DeckError, ModelError) as error:
                 yield refused(deck, error)
                 continue
+            except Exception as error:
+                yield broken(deck, folder, error)
+                continue
             future = client.submit(solve_remote, model, deck.name, dict(settings), pure=False)
             sent[future] = deck, marks
         while sent:

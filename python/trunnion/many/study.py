@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trunnion.arrays import B1, F8, I4, System
+from trunnion.cases.default_cases import with_cases
 from trunnion.many.axes import Axis, combinations, read_axes
 from trunnion.many.forked import run_forked
 from trunnion.many.variants import Answers, Combination, Prepared, prepare, solve_block
@@ -108,6 +109,7 @@ def study(
     DeckError, ModelError
         The deck itself is wrong.
     """
+    model = with_cases(model)
     axes = read_axes(model, vary)
     base = prepare(model, axes, [name.upper() for name in cases], warm=warm)
     every = combinations(axes)

@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 from trunnion.arrays import F8, CaseResult, System
 from trunnion.cases.analysis import Run, Start
 from trunnion.cases.casetext import needed
-from trunnion.cases.default_cases import with_cases
 from trunnion.deck.values import nearest
 from trunnion.errors import BatchError, DeckError, ModelError
 from trunnion.loads import LoadSets, load_sets
@@ -92,15 +91,14 @@ def prepare(model: Model, axes: tuple[Axis, ...], names: Sequence[str], *, warm:
         The deck itself is wrong.
     """
     model.check()
-    chosen = with_cases(model)
-    known = [case.name for case in chosen.cases]
+    known = [case.name for case in model.cases]
     missing = [
         f"--case {n}: there is no such case{nearest(n, known)}" for n in names if n not in known
     ]
     if missing:
         raise BatchError("\n".join([*missing, "nothing was solved"]))
     wanted = tuple(n for n in known if n in names or not names)
-    chosen = replace(chosen, cases=needed(chosen, wanted), cycles=[])
+    chosen = replace(model, cases=needed(model, wanted), cycles=[])
     if not any(isinstance(case, Case) and case.spectrum for case in chosen.cases):
         chosen = replace(chosen, modal=None)
     run = Run(chosen, {})
