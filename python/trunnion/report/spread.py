@@ -86,8 +86,8 @@ def _shown(apart: F8, answers: Sequence[CaseResult], kind: int) -> F8:
         max((float(np.abs(k[..., half]).max(initial=0.0)) for k in known), default=0.0)
         for half in (slice(0, 3), slice(3, 6))
     )
-    out[..., :3][out[..., :3] <= ROUND_OFF * max(force, 1e-3 * moment)] = 0.0
-    out[..., 3:][out[..., 3:] <= ROUND_OFF * max(moment, 1e-3 * force)] = 0.0  # at 1 mm
+    out[..., :3][out[..., :3] <= ROUND_OFF * max(force, 1e-3 * moment, 1.0)] = 0.0
+    out[..., 3:][out[..., 3:] <= ROUND_OFF * max(moment, 1e-3 * force, 1.0)] = 0.0
     return out
 
 
