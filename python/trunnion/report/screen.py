@@ -26,6 +26,8 @@ def screen(results: Results, model: Model) -> tuple[bool, str]:
         lines.append(f"  ... and {len(cases) - len(shown)} more cases in the report")
     lines += mode_lines(results) + cycle_lines(results)
     if results.spreads:
+        from trunnion.report.spread import spread_lines
+
         lines += spread_lines(results, units)
     lines += _some([f"{name}: {cause_of(cases[name])}" for name in bad], CAUSES)
     warnings = list(results.warnings)
