@@ -446,6 +446,49 @@ class ModeSet:
         return modes(self)
 
 
+@frozen
+class Tried:
+    """One try for another answer: its number among the answers, or why there is none."""
+
+    what: str
+    answer: int | None
+    cause: str | None
+
+
+@frozen(eq=False)
+class Spreading:
+    """Certified answers of some tries and how far they lie apart (largest less smallest).
+
+    answers : those that differ in loads; the first is the case's own where it has one.
+    supports : (n_card, 6) [N, N m].  elements : (n_elem, 2, 6) end forces [N, N m].
+    moves : (n_node, 6) [m, rad].  All None where nothing is certified.
+    """
+
+    tried: tuple[Tried, ...]
+    answers: tuple[CaseResult, ...]
+    supports: F8 | None
+    elements: F8 | None
+    moves: F8 | None
+
+
+@frozen(eq=False)
+class Spread:
+    """What was found of a case beside its answer.
+
+    unique : why there can be no other answer; then nothing was tried.
+    starts : answers to the same question from other starts of the iterations.
+    orders : ends of other load orders and numbers of steps, which are other questions: friction
+        remembers its path; None where the answer is unique.
+    cause : why nothing could be tried.
+    """
+
+    case: str
+    unique: str | None
+    starts: Spreading
+    orders: Spreading | None
+    cause: str | None = None
+
+
 @dataclass(slots=True)
 class Results:
     """All cases of one run, in the deck's order."""
@@ -457,6 +500,7 @@ class Results:
     cycles: dict[str, CycleResult] = field(default_factory=dict)
     base: System | None = None  # the system whose contacts have gaps; cases may have others
     modes: ModeSet | None = None  # where the deck asks for them
+    spreads: dict[str, Spread] = field(default_factory=dict)  # where other starts were asked for
 
     def __getitem__(self, name: str) -> CaseResult:
         """Return the case called `name`."""

@@ -42,6 +42,7 @@ def solve(
     *,
     starts: Mapping[str, Start] | None = None,
     session: Session | None = None,
+    spread: int = 0,
 ) -> Results:
     """Solve every case and combination of a model; one without cases takes default ones.
 
@@ -49,6 +50,7 @@ def solve(
     ----------
     starts : other starts of the iterations by case name; the law solved is the same.
     session : what earlier solves left; see `Session`.
+    spread : number of other starts of every case in a search for further answers; see `Spread`.
 
     Raises
     ------
@@ -59,13 +61,23 @@ def solve(
     """
     model.check()
     try:
-        return Run(with_cases(model), starts or {}, session).results()
+        run = Run(with_cases(model), starts or {}, session)
+        results = run.results()
     except ModelError as error:
         free = _free_modes(model)
         if free is None:
             raise
         free.warnings += (f"no default cases: {error.problems[0].text}",)
         return free
+    if spread:
+        from trunnion.cases.spread import spreads
+
+        results.spreads = spreads(run, spread)
+        for name, found in results.spreads.items():
+            if (n := len(found.starts.answers)) > 1:
+                said = f"{n} certified answers were found from {spread} other starts"
+                results.cases[name].warnings += (said,)
+    return results
 
 
 def _own(array: F8 | None) -> F8 | None:
@@ -290,16 +302,26 @@ class Run:
         prepared: tuple[Point, Solved] | None = None,
     ) -> tuple[CaseResult, Origin | None]:
         """Solve one case from where another ended, or from rest."""
-        structure, locked = self.structure(case), case.snubbers == "LOCKED"
+        structure = self.structure(case)
         found = self.session.recall(structure, question, origin)
         if found is not None:
             return found
-        asked, begun = question, origin
+        found = self.ask(case, question, origin, prepared)
+        self.session.keep(structure, question, origin, found)
+        return found
+
+    def ask(
+        self,
+        case: Case,
+        question: Question,
+        origin: Origin | None,
+        prepared: tuple[Point, Solved] | None = None,
+    ) -> tuple[CaseResult, Origin | None]:
+        """Solve one case, whatever was answered before."""
+        structure, locked = self.structure(case), case.snubbers == "LOCKED"
         if origin is not None:
             loads, origin = go_on(self.system, structure, origin, question.loads, locked=locked)
             question = replace(question, loads=loads)
         elif locked:
             origin = locked_at_rest(structure)
-        found = answer(structure, question, origin, prepared)
-        self.session.keep(structure, asked, begun, found)
-        return found
+        return answer(structure, question, origin, prepared)

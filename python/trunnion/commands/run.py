@@ -23,8 +23,15 @@ from trunnion.commands.shared import (
 @DECK
 @FOLDER
 @further_options
+@click.option(
+    "--spread",
+    type=click.IntRange(0),
+    default=0,
+    metavar="N",
+    help="Look for other answers of every case from N other starts and load orders.",
+)
 @click.option("--timings", is_flag=True, help="Print how long each part took.")
-def run(deck: Path, folder: Path, timings: bool, **further: bool) -> int:
+def run(deck: Path, folder: Path, spread: int, timings: bool, **further: bool) -> int:
     """Solve DECK; write <stem>.out and <stem>.json."""
     from trunnion.report.screen import screen
 
@@ -34,7 +41,7 @@ def run(deck: Path, folder: Path, timings: bool, **further: bool) -> int:
     start = perf_counter()
     model = read_model(deck)
     read = perf_counter()
-    results = solve_model(model)
+    results = solve_model(model, spread)
     solved = perf_counter()
     from trunnion.report import write_reports
 

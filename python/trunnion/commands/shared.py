@@ -58,11 +58,11 @@ def read_model(deck: Path) -> "Model":
     return read(deck)
 
 
-def solve_model(model: "Model") -> "Results":
-    """Solve every case."""
+def solve_model(model: "Model", spread: int = 0) -> "Results":
+    """Solve every case; with `spread` look for other answers from so many starts."""
     import trunnion
 
-    results: Results = trunnion.solve(model)
+    results: Results = trunnion.solve(model, spread=spread) if spread else trunnion.solve(model)
     return results
 
 

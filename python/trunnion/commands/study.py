@@ -38,8 +38,10 @@ def study(
 ) -> int:
     """Solve variants of DECK; write <stem>-study.out, .json, .csv and <stem>-variants.csv.
 
-    Exit 0: every variant is certified.  1: one failed, it has its cause.  2: bad input.
+    What can vary, and how: docs/many.md.  Exit 0: every variant is certified.  1: one failed, it
+    has its cause.  2: bad input.
     """
+    from trunnion.cases.default_cases import with_cases
     from trunnion.many.axes import count, read_axes
     from trunnion.many.study import study as solve_study
     from trunnion.report.atomic import write_files
@@ -49,7 +51,7 @@ def study(
 
     refuse_unwritable(folder)
     model = read_model(deck)
-    total = count(read_axes(model, vary))
+    total = count(read_axes(with_cases(model), vary))
     with progress("variants", total) as counter:
         done = solve_study(
             model,

@@ -11,16 +11,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
-from trunnion.arrays import F8, I4, CaseResult, System
+from trunnion.arrays import F8, CaseResult, System
 from trunnion.cases.analysis import Run, Start
-from trunnion.cases.casetext import needs
-from trunnion.cases.default_cases import with_cases
+from trunnion.cases.casetext import needed
 from trunnion.deck.values import nearest
 from trunnion.errors import BatchError, DeckError, ModelError
 from trunnion.loads import LoadSets, load_sets
 from trunnion.many.axes import Axis
-from trunnion.model import Case, Comb, Model
+from trunnion.model import Case, Model
 from trunnion.results.supports import (
     STATES,
     card_forces,
@@ -32,6 +32,7 @@ from trunnion.results.supports import (
 )
 from trunnion.system import with_supports
 
+I1 = NDArray[np.int8]
 Combination = tuple[int, ...]  # number of the value on each axis
 
 
@@ -53,12 +54,12 @@ class Prepared:
 
 @dataclass(slots=True, eq=False, repr=False)
 class Answers:
-    """Numbers of n variants; NaN (counts 0) where there is no certified answer.
+    """Numbers of n variants; NaN where there is no certified answer.
 
     force : (n, n_case, n_card, 6) on the pipe [N, N m].
     both : (n_case, n_card, 6) above zero where that is a size, which acts both ways.
     move : (n, n_case, n_card, 3) of the pipe at the support [m].
-    count : (n, n_case, 6) supports in each of STATES.
+    level : (n, n_case, n_card) index into STATES, -1 where there is no state.
     worst : (n, n_case) certificate.
     where, cause : by variant and case.
     work : of all of them.
@@ -67,11 +68,16 @@ class Answers:
     force: F8
     both: F8
     move: F8
-    count: I4
+    level: I1
     worst: F8
     where: list[list[str]]
     cause: list[list[str | None]]
     work: dict[str, int]
+
+    @property
+    def count(self) -> NDArray[np.int64]:
+        """(n, n_case, n_state) supports in each of STATES."""
+        return np.stack([(self.level == k).sum(axis=2) for k in range(len(STATES))], axis=2)
 
 
 def prepare(model: Model, axes: tuple[Axis, ...], names: Sequence[str], *, warm: bool) -> Prepared:
@@ -85,15 +91,14 @@ def prepare(model: Model, axes: tuple[Axis, ...], names: Sequence[str], *, warm:
         The deck itself is wrong.
     """
     model.check()
-    chosen = with_cases(model)
-    known = [case.name for case in chosen.cases]
+    known = [case.name for case in model.cases]
     missing = [
         f"--case {n}: there is no such case{nearest(n, known)}" for n in names if n not in known
     ]
     if missing:
         raise BatchError("\n".join([*missing, "nothing was solved"]))
     wanted = tuple(n for n in known if n in names or not names)
-    chosen = replace(chosen, cases=_needed(chosen, wanted), cycles=[])
+    chosen = replace(model, cases=needed(model, wanted), cycles=[])
     if not any(isinstance(case, Case) and case.spectrum for case in chosen.cases):
         chosen = replace(chosen, modal=None)
     run = Run(chosen, {})
@@ -104,21 +109,6 @@ def prepare(model: Model, axes: tuple[Axis, ...], names: Sequence[str], *, warm:
     if warm:
         prepared.warm = _starts(run)
     return prepared
-
-
-def _needed(model: Model, wanted: Sequence[str]) -> list[Case | Comb]:
-    """Keep the cases that are wanted and those that they need, in the deck's order."""
-    by_name = {case.name: case for case in model.cases}
-    found, todo = set(), list(wanted)
-    while todo:
-        name = todo.pop()
-        if name not in found and name in by_name:
-            found.add(name)
-            todo += needs(by_name[name])
-            spectrum = isinstance(by_name[name], Case) and by_name[name].spectrum  # type: ignore[union-attr]
-            if spectrum and model.modal is not None and model.modal.about:
-                todo.append(model.modal.about)
-    return [case for case in model.cases if case.name in found]
 
 
 def _starts(run: Run) -> dict[str, tuple[F8, F8]]:
@@ -139,7 +129,7 @@ def solve_block(base: Prepared, block: Sequence[Combination]) -> Answers:
         force=np.full((n, n_case, n_card, 6), np.nan),
         both=np.zeros((n_case, n_card, 6)),
         move=np.full((n, n_case, n_card, 3), np.nan),
-        count=np.zeros((n, n_case, len(STATES)), np.int32),
+        level=np.full((n, n_case, n_card), -1, np.int8),
         worst=np.full((n, n_case), np.nan),
         where=[[""] * n_case for _ in block],
         cause=[[None] * n_case for _ in block],
@@ -239,4 +229,4 @@ def _read_out(base: Prepared, case: CaseResult, out: Answers, i: int, j: int) ->
     out.move[i, j] = case.state.u[base.node, :3]
     out.both[j] = without_sign(case)
     if case.gathered is None:
-        out.count[i, j] = np.bincount(card_levels(case), minlength=len(STATES))
+        out.level[i, j] = card_levels(case)
