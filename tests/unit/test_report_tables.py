@@ -1,6 +1,7 @@
 """Workbook and CSV, read back by other programs' libraries and compared with the JSON."""
 
 import csv
+import dataclasses
 import json
 from io import BytesIO, StringIO
 
@@ -10,6 +11,7 @@ import pytest
 
 import trunnion
 from trunnion.deck.reader import read_text
+from trunnion.origin import LeftOut, Origin
 from trunnion.report import csv as csv_report
 from trunnion.report import excel
 from trunnion.report.json import json_report
@@ -283,3 +285,13 @@ def test_other_units_stand_above_the_numbers(solved):
     assert units_of(book["Restraints"])["MX"] == "lbf.in"
     assert units_of(book["Stresses"])["AXIAL"] == "psi"
     assert book["Summary"].page_setup.paperSize in (1, "1")  # letter
+
+
+def test_what_a_foreign_file_left_out_stands_first_among_the_warnings(results, model):
+    left = LeftOut("node 30", "a clamp is left out", "line.cii:12")
+    made = dataclasses.replace(model, origin=Origin("line.cii", "CAESAR II neutral file", (left,)))
+    texts = [row["WARNING"] for row in rows_of(book_of(results, made)["Warnings"])]
+    assert texts[:2] == [
+        "from line.cii, CAESAR II neutral file",
+        "LEFT OUT: node 30: a clamp is left out (line.cii:12)",
+    ]

@@ -9,6 +9,7 @@ from trunnion.commands.shared import (
     DECK,
     FAILED,
     FOLDER,
+    PERMISSIVE,
     SOLVED,
     InputError,
     further_options,
@@ -30,8 +31,11 @@ from trunnion.commands.shared import (
     metavar="N",
     help="Look for other answers of every case from N other starts and load orders.",
 )
+@PERMISSIVE
 @click.option("--timings", is_flag=True, help="Print how long each part took.")
-def run(deck: Path, folder: Path, spread: int, timings: bool, **further: bool) -> int:
+def run(
+    deck: Path, folder: Path, spread: int, permissive: bool, timings: bool, **further: bool
+) -> int:
     """Solve DECK; write <stem>.out and <stem>.json."""
     from trunnion.report.screen import screen
 
@@ -39,7 +43,7 @@ def run(deck: Path, folder: Path, spread: int, timings: bool, **further: bool) -
     _check_names(deck, also)
     refuse_unwritable(folder)
     start = perf_counter()
-    model = read_model(deck)
+    model = read_model(deck, permissive=permissive)
     read = perf_counter()
     results = solve_model(model, spread)
     solved = perf_counter()
@@ -65,7 +69,7 @@ def _shown(files: list[Path], folder: Path) -> list[str]:
 
 def _check_names(deck: Path, also: list[str]) -> None:
     """Refuse before any work what would overwrite the deck or could not be written."""
-    from trunnion.report.formats import missing
+    from trunnion.report.outputs import missing
 
     if deck.suffix.lower() in (".out", ".json", ".h5", ".xlsx", ".csv", ".vtu", ".pvd"):
         raise InputError(f"{deck}: a deck must not be called *{deck.suffix}, as the reports are")

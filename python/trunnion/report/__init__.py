@@ -16,7 +16,7 @@ def write_reports(
 
     Parameters
     ----------
-    also : names of `report.formats.FORMATS`: h5, xlsx, csv, vtu.
+    also : names of `report.outputs.OUTPUTS`: h5, xlsx, csv, vtu.
     """
     files = report_files(results, model, folder, stem, also=also)
     write_files(files)
@@ -36,7 +36,7 @@ def report_files(
             folder / f"{stem}.json": json_report(results, model),
         }
         for name in also:
-            from trunnion.report.formats import further_files
+            from trunnion.report.outputs import further_files
 
             files |= further_files(name, results, model, folder, stem)
     return files

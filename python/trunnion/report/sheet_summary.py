@@ -3,6 +3,8 @@
 import numpy as np
 
 from trunnion.arrays import CaseResult, Results
+from trunnion.model import Model
+from trunnion.report.origin import origin_lines
 from trunnion.report.screen import all_warnings
 from trunnion.report.sheets import Cell, Column, Sheet, amounts
 from trunnion.report.summary import Largest, largest_of
@@ -91,10 +93,11 @@ def certificates(results: Results) -> Sheet:
     )
 
 
-def warnings(results: Results, units: ReportUnits) -> Sheet:
-    """Everything that a reader must know, one row a warning."""
+def warnings(results: Results, model: Model, units: ReportUnits) -> Sheet:
+    """Everything that a reader must know, one row a warning; first what a file left out."""
     cases = results.cases.values()
-    texts = [f"{case.name}: {cause_of(case)}" for case in cases if not is_good(case)]
+    texts = [] if model.origin is None else origin_lines(model.origin)
+    texts += [f"{case.name}: {cause_of(case)}" for case in cases if not is_good(case)]
     texts += all_warnings(results, units)
     return Sheet(
         "warnings",

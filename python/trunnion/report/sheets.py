@@ -87,5 +87,5 @@ def all_sheets(results: Results, model: Model) -> list[Sheet]:
         found += [displacements(good, units), forces(good, units), stresses(good, units)]
     if results.modes is not None:
         found.append(modes(results.modes))
-    found += [certificates(results), warnings(results, units)]
+    found += [certificates(results), warnings(results, model, units)]
     return [sheet for sheet in found if len(sheet) or sheet.name in ("summary", "warnings")]

@@ -12,28 +12,25 @@ Files = dict[Path, bytes]
 
 
 @frozen
-class Format:
-    """One format: its files in words, the package that writes it, the extra that brings that."""
+class Output:
+    """One format: the module that makes it, the package that this needs, the extra with that."""
 
-    files: str
     module: str
     package: str = ""
     extra: str = ""
 
 
-FORMATS: Mapping[str, Format] = {
-    "h5": Format("<stem>.h5, whole arrays", "trunnion.report.hdf5", "h5py", "hdf5"),
-    "xlsx": Format("<stem>.xlsx, a workbook", "trunnion.report.excel", "xlsxwriter", "excel"),
-    "csv": Format("<stem>_csv/, the tables of the workbook", "trunnion.report.csv"),
-    "vtu": Format(
-        "<stem>.pvd and <stem>_vtu/, for ParaView", "trunnion.report.vtu", "pyevtk", "vtk"
-    ),
+OUTPUTS: Mapping[str, Output] = {
+    "h5": Output("trunnion.report.hdf5", "h5py", "hdf5"),
+    "xlsx": Output("trunnion.report.excel", "xlsxwriter", "excel"),
+    "csv": Output("trunnion.report.csv"),
+    "vtu": Output("trunnion.report.vtu", "pyevtk", "vtk"),
 }
 
 
 def missing(name: str) -> str:
     """Say what is not installed for a format; nothing if all is there."""
-    found = FORMATS[name]
+    found = OUTPUTS[name]
     if found.package:
         from importlib.util import find_spec
 
@@ -46,5 +43,5 @@ def missing(name: str) -> str:
 def further_files(name: str, results: Results, model: Model, folder: Path, stem: str) -> Files:
     """Make the files of one format, by their places."""
     make: Callable[[Results, Model, str], dict[str, bytes]]
-    make = import_module(FORMATS[name].module).files
+    make = import_module(OUTPUTS[name].module).files
     return {folder / file: content for file, content in make(results, model, stem).items()}
