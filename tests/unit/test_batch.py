@@ -52,7 +52,7 @@ def many(tmp_path):
     """Decks that keep two processes busy for some seconds."""
     folder = tmp_path / "many"
     folder.mkdir()
-    return [Path(shutil.copy(MODELS / "rack_200.inp", folder / f"r{i:02d}.inp")) for i in range(14)]
+    return [Path(shutil.copy(MODELS / "rack_50.inp", folder / f"r{i:02d}.inp")) for i in range(14)]
 
 
 def summary(folder):
@@ -289,8 +289,9 @@ def test_interruption_leaves_nothing_half_written_and_no_process(many, tmp_path,
     wait_for_records(process, tmp_path / "out", 2)
     workers = children(process.pid)
     os.killpg(process.pid, number)  # as a terminal does
-    process.communicate(timeout=10)
+    _, err = process.communicate(timeout=10)
     assert process.returncode == code
+    assert ("finished decks stay" in err) == (number == signal.SIGINT)
     assert gone(workers)
     assert not hidden(tmp_path / "out")
     for record in (tmp_path / "out" / FOLDER).glob("*.json"):

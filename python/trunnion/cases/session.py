@@ -141,7 +141,7 @@ def same_supports(a: System, b: System) -> bool:
 
 def _same_question(a: Question, b: Question) -> bool:
     names = tuple(field.name for field in fields(a.loads))
-    plans = ("steps", "events", "iteration", "capacity", "ramp")
+    plans = ("steps", "events", "iteration", "capacity", "u", "ramp")
     return _same(a.loads, b.loads, names) and _same(a.plan, b.plan, plans)
 
 

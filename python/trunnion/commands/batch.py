@@ -4,7 +4,7 @@ from pathlib import Path
 
 import click
 
-from trunnion.commands.shared import FOLDER, JOBS, InputError, refuse_unwritable, say
+from trunnion.commands.shared import FOLDER, INTERRUPTED, JOBS, InputError, refuse_unwritable, say
 
 
 @click.command()
@@ -42,16 +42,20 @@ def batch(
         def told(entry: Entry) -> None:
             counter.step(entry_line(entry))
 
-        done = solve_batch(
-            decks,
-            folder,
-            jobs=jobs,
-            h5=h5,
-            scheduler=scheduler,
-            redo=redo,
-            told=told,
-            tick=counter.tick,
-        )
+        try:
+            done = solve_batch(
+                decks,
+                folder,
+                jobs=jobs,
+                h5=h5,
+                scheduler=scheduler,
+                redo=redo,
+                told=told,
+                tick=counter.tick,
+            )
+        except KeyboardInterrupt:
+            click.echo("interrupted: finished decks stay, the same command goes on", err=True)
+            return INTERRUPTED
     say(summary_screen(done.entries))
     say(f"wrote {folder / SUMMARY}.json  {folder / SUMMARY}.csv")
     return done.code

@@ -9,6 +9,7 @@ from trunnion.commands.shared import (
     DECK,
     FAILED,
     FOLDER,
+    PERMISSIVE,
     SOLVED,
     InputError,
     read_model,
@@ -21,18 +22,26 @@ from trunnion.commands.shared import (
 @click.command()
 @DECK
 @FOLDER
+@click.option(
+    "--spread",
+    type=click.IntRange(0),
+    default=0,
+    metavar="N",
+    help="Look for other answers of every case from N other starts and load orders.",
+)
+@PERMISSIVE
 @click.option("--h5", is_flag=True, help="Write <stem>.h5 too.")
 @click.option("--timings", is_flag=True, help="Print how long each part took.")
-def run(deck: Path, folder: Path, h5: bool, timings: bool) -> int:
+def run(deck: Path, folder: Path, spread: int, permissive: bool, h5: bool, timings: bool) -> int:
     """Solve DECK; write <stem>.out and <stem>.json."""
     from trunnion.report.screen import screen
 
     _check_names(deck, h5)
     refuse_unwritable(folder)
     start = perf_counter()
-    model = read_model(deck)
+    model = read_model(deck, permissive=permissive)
     read = perf_counter()
-    results = solve_model(model)
+    results = solve_model(model, spread)
     solved = perf_counter()
     from trunnion.report import write_reports
 

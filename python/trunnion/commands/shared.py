@@ -17,6 +17,10 @@ DECK = click.argument("deck", type=click.Path(path_type=Path))
 FOLDER = click.option(
     "-o", "folder", type=click.Path(path_type=Path), default=Path(), help="Where the files go."
 )
+PERMISSIVE = click.option(
+    "--permissive", is_flag=True, help="Leave out what a model cannot represent, and list it."
+)
+FOREIGN: tuple[str, ...] = ()  # suffixes of files that are no decks: formats.FORMATS
 JOBS = click.option(
     "-j", "jobs", type=click.IntRange(1), help="Processes at a time; one a core if not given."
 )
@@ -34,18 +38,24 @@ def say(text: str) -> None:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
-def read_model(deck: Path) -> "Model":
-    """Read the input file of a command."""
+def read_model(deck: Path, *, permissive: bool = False) -> "Model":
+    """Read the input file of a command: a deck, or a file of another program by its suffix."""
+    if deck.suffix.lower() in FOREIGN:
+        from trunnion.formats import read_any
+
+        return read_any(deck, permissive=permissive).model
+    if permissive:
+        raise InputError(f"--permissive is for files of other programs ({' '.join(FOREIGN)})")
     from trunnion.deck.reader import read
 
     return read(deck)
 
 
-def solve_model(model: "Model") -> "Results":
-    """Solve every case."""
+def solve_model(model: "Model", spread: int = 0) -> "Results":
+    """Solve every case; with `spread` look for other answers from so many starts."""
     import trunnion
 
-    results: Results = trunnion.solve(model)
+    results: Results = trunnion.solve(model, spread=spread) if spread else trunnion.solve(model)
     return results
 
 

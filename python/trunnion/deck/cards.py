@@ -138,7 +138,8 @@ def _gather(text: str, file: str, chain: tuple[str, ...], deck: Deck) -> None:
     """Append the cards of one file; INCLUDE cards are replaced by theirs."""
     append = deck.cards.append
     for card in _logical(text, file, deck):
-        if card.text[:7].upper() == "INCLUDE" and card.text[7:8] in (" ", ""):
+        word = card.text[:7]
+        if word[0] in "Ii" and word.upper() == "INCLUDE" and card.text[7:8] in (" ", ""):
             _include(card, chain, deck)
         else:
             append(card)

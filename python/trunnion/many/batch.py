@@ -2,8 +2,8 @@
 
 import fcntl
 import os
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Generator, Iterator, Sequence
+from contextlib import closing, contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 from time import monotonic, sleep
@@ -81,10 +81,11 @@ def batch(
             from trunnion.many.cluster import solve_there
 
             ends = solve_there(todo, place, settings, scheduler, tick)
-        for entry in ends:
-            found[entry.stem] = entry
-            if told is not None:
-                told(entry)
+        with closing(ends):
+            for entry in ends:
+                found[entry.stem] = entry
+                if told is not None:
+                    told(entry)
         done = Batch(tuple(found[deck.stem] for deck in paths))
         _write_summary(done, place)
     return done
@@ -96,9 +97,10 @@ def _solve_here(
     settings: dict[str, object],
     jobs: int,
     tick: Callable[[], None] | None,
-) -> Iterator[Entry]:
+) -> Generator[Entry, None, None]:
     """Solve decks in forked processes."""
-    _load()
+    if todo:
+        _load()
     ends = run_forked(
         todo,
         lambda deck: solve_deck(deck, place, settings),

@@ -4,7 +4,7 @@ So workers need Trunnion of the same version and nothing else, no shared folder.
 decks of a worker that is lost to others; one at which several workers died is reported.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Generator, Sequence
 from pathlib import Path
 from time import sleep
 from typing import TYPE_CHECKING, Any
@@ -36,7 +36,7 @@ def solve_there(
     settings: Settings,
     address: str,
     tick: Callable[[], None] | None,
-) -> Iterator[Entry]:
+) -> Generator[Entry, None, None]:
     """Give the entries of decks as they come; leaving early cancels what is not done."""
     client = _connect(address)
     sent: dict[Future, Sent] = {}
@@ -47,6 +47,9 @@ def solve_there(
                 marks = fingerprints(sources, deck)
             except (DeckError, ModelError) as error:
                 yield refused(deck, error)
+                continue
+            except Exception as error:
+                yield broken(deck, folder, error)
                 continue
             future = client.submit(solve_remote, model, deck.name, dict(settings), pure=False)
             sent[future] = deck, marks

@@ -41,7 +41,7 @@ def digits_left(
 ) -> tuple[float, str]:
     """Digits of the displacements that do not hang on the last bit of the input.
 
-    Every member's end forces are changed by up to one part, with random signs, as a change of its
+    Every member's end forces are changed by up to one part, with scattered signs, as a change of its
     stiffness by one part would do (rigid motion makes no force, so none is made of it), and so
     are those that would hold back its free deformation.  What this moves, of the largest
     displacement, is the number of parts that an error of one part in the input costs: a
@@ -55,10 +55,10 @@ def digits_left(
     -------
     Digits left of the 16 that doubles have, and the freedom that loses most ("node 40 RX").
     """
-    random, load = np.random.default_rng(1), np.zeros_like(point.u)
-    for at in (point, Point.zero(structure.n_node)):
+    load = np.zeros_like(point.u)
+    for start, at in enumerate((point, Point.zero(structure.n_node))):
         end = structure.residual(at, law, forcing)[1]
-        signs = random.choice((-1.0, 1.0), len(end)) * random.uniform(0.5, 1.0, len(end))
+        signs = _scattered(len(end), start)
         for side in (0, 1):
             np.add.at(load, structure.members.ends[:, side], signs[:, None] * end[:, side])
     load[structure.absent] = 0.0
@@ -70,6 +70,13 @@ def digits_left(
     lost = max(log10(max(float(moved[node, freedom]) / size, 1.0)), 0.0)
     reached = -log10(max(correction, 1e-300))
     return min(DIGITS - lost, reached), name
+
+
+def _scattered(n: int, start: int) -> F8:
+    """Signs and sizes from 0.5 to 1 without order (Weyl); numpy.random would be imported for it."""
+    share = np.mod(np.arange(1, n + 1) * (0.5 * (5.0**0.5 - 1.0)) + 0.37 * start, 1.0)
+    signs: F8 = np.where(share < 0.5, -0.5 - share, share)
+    return signs
 
 
 def _size(structure: Structure, p: F8) -> float:

@@ -18,7 +18,7 @@ from trunnion.solver.members import (
     member_loads,
     whole_members,
 )
-from trunnion.solver.pattern import build_pattern
+from trunnion.solver.pattern import Pattern, build_pattern
 from trunnion.solver.quantities import Forcing, Inside, Point, Response, Sliding
 
 EXTENDED_PIVOT = 1e-12  # a pivot in double-double that is worth one in doubles
@@ -43,6 +43,9 @@ class Structure:
     A structure with a `parent` is the same pipe on other supports (frozen contacts, locked
     snubbers): it shares the parent's members, pattern, symbolic analysis and factor.  `keep`
     numbers its contacts among the contacts and then the snubbers of the parent's system.
+
+    One that is `like` another has the same nodes, joined in the same way, with other numbers: it
+    shares pattern and symbolic analysis.
     """
 
     def __init__(
@@ -53,14 +56,15 @@ class Structure:
         keep: I4 | None = None,
         *,
         whole: bool = False,
+        like: "Structure | None" = None,
     ) -> None:
         self.system, self.ledger = system, ledger
         self.shifted = self.checked = False  # a singular tangent was met; it was looked into
-        self.keep, self.parent = keep, parent
+        self.keep, self.parent, self.like = keep, parent, like
         self.extended: ExtendedFactor | None = None
         if parent is None:
             self.members = whole_members(system) if whole else chain_members(system)
-            self.box = Box()
+            self.box: Box = Box() if like is None else like.box
         else:
             self.members, self.box = parent.members, parent.box
         chains = self.members.chains
@@ -70,8 +74,8 @@ class Structure:
             contacts, sliders, snubbers = at_kept_nodes(system, chains)
         self.contacts, self.sliders = contacts_of(contacts), sliders_of(sliders)
         if parent is None:
-            ends = self.members.ends
-            self.pattern = build_pattern(self.n_node, ends, self.contacts, self.sliders, snubbers)
+            joined = self.members.ends, self.contacts, self.sliders, snubbers
+            self.pattern: Pattern = like.pattern if like else build_pattern(self.n_node, *joined)
             self.pipe = self._assemble()
         else:
             self.pattern, self.pipe = parent.pattern, parent.pipe
@@ -101,7 +105,8 @@ class Structure:
         if self.members.chains is None:
             return self
         if self.parent is None:
-            return Structure(self.system, self.ledger, whole=True)
+            like = None if self.like is None else self.like.full
+            return Structure(self.system, self.ledger, whole=True, like=like)
         return Structure(self.system, self.ledger, self.parent.full, self.keep)
 
     @cached_property
@@ -118,7 +123,8 @@ class Structure:
     def _supports(self) -> None:
         c, s = self.contacts, self.sliders
         p = self.pattern
-        self.rank = rank = p.contact_rank if self.keep is None else self._kept_rank()
+        rank = p.contact_rank if self.keep is None else self._kept_rank()
+        self.rank: I4 = rank
         offset = np.where(c.rotational, 3, 0)
         at = np.column_stack((c.node, c.cnode, rank, offset, c.dim, c.two_way))
         self.at = np.ascontiguousarray(at, np.int32)
@@ -321,8 +327,8 @@ class Structure:
         if self.extended is not None:
             return self._factorise_extended(self.extended, tangent, slider_tangent, shift)
         box = self.box
-        if box.spd is None:
-            box.spd = kernels.SpdFactor(self.pattern.colptr, self.pattern.row)
+        self.analyse()
+        assert box.spd is not None
         val = self.val
         if self.changes:
             val = val.copy()
@@ -361,6 +367,12 @@ class Structure:
             factor = ExtendedFactor(self)
             self.extended = factor if factor.feasible else None
         return self.extended is not None
+
+    def analyse(self) -> None:
+        """Make the symbolic analysis, unless there is one."""
+        if self.box.spd is None:
+            self.box.spd = kernels.SpdFactor(self.pattern.colptr, self.pattern.row)
+            self.ledger.follow(self.box, self.box.spd.work)
 
     def solve(self, r: F8) -> F8:
         """Displacements (n_node, 6) of the factored stiffness under r; or (m, n_node, 6)."""
