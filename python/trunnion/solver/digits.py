@@ -41,9 +41,9 @@ def digits_left(
 ) -> tuple[float, str]:
     """Digits of the displacements that do not hang on the last bit of the input.
 
-    Every member's end forces are changed by up to one part, with scattered signs, as a change of its
-    stiffness by one part would do (rigid motion makes no force, so none is made of it), and so
-    are those that would hold back its free deformation.  What this moves, of the largest
+    Every member's end forces are changed by up to one part, with scattered signs, as a change of
+    its stiffness by one part would do (rigid motion makes no force, so none is made of it), and
+    so are those that would hold back its free deformation.  What this moves, of the largest
     displacement, is the number of parts that an error of one part in the input costs: a
     structured condition number in the sense of Skeel (1979).
 
