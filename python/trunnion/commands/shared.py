@@ -2,6 +2,7 @@
 
 import os
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -24,6 +25,22 @@ FOREIGN: tuple[str, ...] = (".cii",)  # suffixes of files that are no decks: for
 JOBS = click.option(
     "-j", "jobs", type=click.IntRange(1), help="Processes at a time; one a core if not given."
 )
+
+
+#: options that ask for further files, as in report.outputs, which needs numpy: help does not
+FURTHER = {
+    "h5": "Write <stem>.h5, too (extra hdf5).",
+    "xlsx": "Write <stem>.xlsx, too: every table, a sheet each (extra excel).",
+    "csv": "Write <stem>_csv/, too: the same tables, a file each.",
+    "vtu": "Write <stem>.pvd and <stem>_vtu/, too, for ParaView (extra vtk).",
+}
+
+
+def further_options(command: Callable[..., int]) -> Callable[..., int]:
+    """Give a command the options of FURTHER."""
+    for name, text in reversed(FURTHER.items()):
+        command = click.option(f"--{name}", name, is_flag=True, help=text)(command)
+    return command
 
 
 class InputError(Exception):
