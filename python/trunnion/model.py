@@ -112,6 +112,43 @@ class Node:
 
 
 @frozen
+class Reducer:
+    """What makes a pipe a reducer: the section at its second end.
+
+    `axis` is the direction of the pipes' axis where the run is inclined to it (eccentric); None:
+    along the run (concentric).
+    """
+
+    section: str
+    axis: tuple[float, float, float] | None = None
+
+
+@frozen
+class Joint:
+    """What makes a pipe an expansion joint: rates of the whole joint, at the middle of its length.
+
+    A None rate is rigid (DEFAULT K, KR); the lateral or bending rate of a joint with a length
+    follows from the other one.  `axis` is needed where the joint has no length.
+    """
+
+    axial: float  # [N/m]
+    lateral: float | None = None  # ends kept parallel [N/m]
+    bending: float | None = None  # moment for a relative rotation of the ends [N m/rad]
+    torsion: float | None = None  # [N m/rad]
+    area: float = 0.0  # effective area of the pressure thrust [m2]
+    axis: tuple[float, float, float] | None = None
+
+
+@frozen
+class Uniform:
+    """Uniform load of set Q1 to Q9 on a length of pipe: N/m, or in g on the weight W."""
+
+    set: str
+    load: tuple[float, float, float]
+    in_g: bool = False
+
+
+@frozen
 class Pipe:
     """A straight run between two labels; `rigid` is a stiff body with its own weight.
 
@@ -126,8 +163,21 @@ class Pipe:
     material: str
     operation: Operation = Operation()
     rigid: bool = False
-    weight: float = 0.0  # of the rigid body, all of it [N]
+    weight: float = 0.0  # of the rigid body or the expansion joint, all of it [N]
     place: Place = field(default=Place(), compare=False)
+    body: str = ""  # what a rigid is: VALVE, FLANGE; "" is RIGID
+    reducer: Reducer | None = None
+    joint: Joint | None = None
+    cut: float = 0.0  # cold spring: cut short by this length (long: < 0), in set CS [m]
+    uniform: tuple[Uniform, ...] = ()
+    offsets: tuple[tuple[float, float, float] | None, ...] = (None, None)  # node to pipe [m]
+
+    @property
+    def card(self) -> str:
+        """Keyword of its card."""
+        if self.rigid:
+            return self.body or "RIGID"
+        return "REDUCER" if self.reducer else "JOINT" if self.joint else "PIPE"
 
 
 @frozen
@@ -453,6 +503,26 @@ class Model:
     def rigid(self, start: Label, end: Label, **keys: Value) -> None:
         """Add a stiff body with its own WEIGHT=."""
         self._add("RIGID", (start, end), keys)
+
+    def valve(self, start: Label, end: Label, **keys: Value) -> None:
+        """Add a valve, a stiff body with its own WEIGHT=."""
+        self._add("VALVE", (start, end), keys)
+
+    def flange(self, start: Label, end: Label, **keys: Value) -> None:
+        """Add a flange or a pair of them, a stiff body with its own WEIGHT=."""
+        self._add("FLANGE", (start, end), keys)
+
+    def reducer(self, start: Label, end: Label, **keys: Value) -> None:
+        """Add a reducer to the section TO=; AXIS= or FLAT= makes it eccentric."""
+        self._add("REDUCER", (start, end), keys)
+
+    def joint(self, start: Label, end: Label, **keys: Value) -> None:
+        """Add an expansion joint: AXIAL= LATERAL= BENDING= TORSION= AREA= WEIGHT=."""
+        self._add("JOINT", (start, end), keys)
+
+    def uniform(self, set: str, **keys: Value) -> None:
+        """Put a uniform load of set Q1 to Q9 on the pipes that follow: X= Y= Z=, or GX= GY= GZ=."""
+        self._add("UNIFORM", (set,), keys)
 
     def bend(self, node: Label, *size: str, **keys: Value) -> None:
         """Put a bend where two pipes meet: R=, or "LONG" or "SHORT"."""

@@ -40,7 +40,7 @@ def _head(case: Named) -> str:
 
 _CARDS = {
     **{"T": "OPERATE", "P": "OPERATE", "D": "DISPLACEMENT", "F": "FORCE", "U": "ACCELERATION"},
-    **{"WIND": "WIND", "S": "SNOW"},
+    **{"WIND": "WIND", "S": "SNOW", "Q": "UNIFORM", "CS": "PIPE"},
 }
 
 
@@ -55,14 +55,18 @@ def _load_sets(model: Model, broken: Set[str]) -> Iterator[Fault]:
     given.update("F" + f.set for f in model.forces)
     given.update("U" + a.set for a in model.accelerations)
     given.update("WIND" + w.set for w in model.winds)
+    given.update("Q" + q.set for uniform in {p.uniform for p in model.pipes} for q in uniform)
+    given.update("CS" for pipe in model.pipes if pipe.cut)
     for case in model.cases:
         if not isinstance(case, Case):
             continue
         for name in dict.fromkeys(term.name for term in case.terms):
             card = _CARDS.get(name.rstrip("123456789")) if name != "U" else None
             if card and name not in given and name not in broken and card not in broken:
-                before = " before a pipe" if card == "OPERATE" else ""
+                before = " before a pipe" if card in ("OPERATE", "UNIFORM") else ""
                 message = f"no {card} card{before} gives {name}"
+                if name == "CS":
+                    message = "no PIPE card has CUTSHORT= or CUTLONG=: CS is nothing"
                 yield Fault(case.place, _head(case), message, name)
             occasional = name[0] == "U" or name.startswith("WIND")
             if occasional and case.about is None and case.snubbers is None:

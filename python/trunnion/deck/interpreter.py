@@ -2,7 +2,16 @@
 
 from collections.abc import Callable
 
-from trunnion.deck import cases, dynamics, line, occasional, properties, restraints, sets
+from trunnion.deck import (
+    cases,
+    components,
+    dynamics,
+    line,
+    occasional,
+    properties,
+    restraints,
+    sets,
+)
 from trunnion.deck.context import Context
 from trunnion.deck.record import Record
 
@@ -16,6 +25,11 @@ ACTIONS: dict[str, Callable[[Context, Record], None]] = {
     "NODE": line.node,
     "PIPE": line.pipe,
     "RIGID": line.pipe,
+    "VALVE": line.pipe,
+    "FLANGE": line.pipe,
+    "REDUCER": line.pipe,
+    "JOINT": line.pipe,
+    "UNIFORM": components.uniform,
     "BEND": line.bend,
     "SPRING": line.spring,
     "MASS": line.mass,

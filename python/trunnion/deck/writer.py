@@ -25,9 +25,11 @@ from trunnion.model import (
     Material,
     Model,
     Operation,
+    Pipe,
     Section,
     Settings,
     Support,
+    Uniform,
 )
 
 _WIDTH = 100
@@ -87,6 +89,7 @@ class _Writer:
         self.model = model
         self.units = un.derived(model.units)
         self.operation = Operation()
+        self.uniform: tuple[Uniform, ...] = ()
         self.section = next(reversed(model.sections), "")
         self.material = next(reversed(model.materials), "")
 
@@ -261,18 +264,47 @@ class _Writer:
                 values["TREF"] = new.tref
             yield _card("OPERATE", [], self.keys("OPERATE", values))
             self.operation = new
-        keyword = "RIGID" if pipe.rigid else "PIPE"
+        yield from self.uniform_cards(pipe.uniform)
+        keyword = pipe.card
         keys = []
         if pipe.delta is not None:
             keys = self.keys(keyword, dict(zip(("DX", "DY", "DZ"), pipe.delta, strict=True)), 0.0)
-        if pipe.rigid:
-            keys += self.keys(keyword, {"WEIGHT": pipe.weight}, 0.0)
+        keys += self.component_keys(pipe)
         if pipe.section != self.section:
             keys.append(("SECTION", pipe.section))
         if pipe.material != self.material:
             keys.append(("MATERIAL", pipe.material))
         self.section, self.material = pipe.section, pipe.material
+        if pipe.reducer is not None:
+            self.section = pipe.reducer.section
         yield _card(keyword, [pipe.start, pipe.end], keys)
+
+    def component_keys(self, pipe: Pipe) -> list[Pair]:
+        """Write what makes a pipe a body, a reducer or an expansion joint, and its cold spring."""
+        values: dict[str, Any] = {}
+        if pipe.rigid or pipe.joint:
+            values["WEIGHT"] = pipe.weight or None
+        if pipe.reducer is not None:
+            values |= {"TO": pipe.reducer.section, "AXIS": pipe.reducer.axis}
+        if pipe.joint is not None:
+            values |= {name.upper(): value for name, value in asdict(pipe.joint).items()}
+            values["AREA"] = pipe.joint.area or None
+        if pipe.cut:
+            values["CUTSHORT" if pipe.cut > 0.0 else "CUTLONG"] = abs(pipe.cut)
+        return self.keys(pipe.card, values)
+
+    def uniform_cards(self, new: tuple[Uniform, ...]) -> Iterator[str]:
+        """Write the uniform loads that change before a pipe; zero ends one."""
+        old = {q.set: q for q in self.uniform}
+        now = {q.set: q for q in new}
+        for name in sorted(old.keys() | now.keys()):
+            q = now.get(name, Uniform(name, (0.0, 0.0, 0.0)))
+            if q != old.get(name):
+                axes = ("GX", "GY", "GZ") if q.in_g else ("X", "Y", "Z")
+                values = dict(zip(axes, q.load, strict=True))
+                keys = self.keys("UNIFORM", values, 0.0) or [("X", "0")]
+                yield _card("UNIFORM", ["Q" + name], keys)
+        self.uniform = new
 
     def bend_card(self, bend: Bend) -> Iterator[str]:
         """Write a bend."""
