@@ -362,7 +362,8 @@ class CaseResult:
     `state` is None when the case did not converge; `cause` then says why.  `history` has one
     record an iteration; `work` counts analyse, factorise, solve, refine, elements, iterations.
     `penalty_u` (n_node, 6) and `penalty_r` (n_contact, 3) are the first-order corrections to
-    rigid supports; `penalty_effect` their largest relative size.
+    rigid supports; `penalty_effect` their largest relative size.  `digits` are those of the
+    displacements that do not hang on the last bit of the input, and where they are fewest.
     """
 
     name: str
@@ -377,6 +378,7 @@ class CaseResult:
     penalty_effect: dict[str, float] = field(default_factory=dict)
     penalty_u: F8 | None = None
     penalty_r: F8 | None = None
+    digits: tuple[float, str] | None = None
     frozen: tuple[str, ...] = ()
     warnings: tuple[str, ...] = ()
     history: list[dict[str, object]] = field(default_factory=list)
@@ -454,7 +456,7 @@ class ModeSet:
         return modes(self)
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Tried:
     """One try for another answer: its number among the answers, or why there is none."""
 
@@ -463,7 +465,7 @@ class Tried:
     cause: str | None
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@frozen(eq=False)
 class Spreading:
     """Certified answers of some tries and how far they lie apart (largest less smallest).
 
@@ -479,7 +481,7 @@ class Spreading:
     moves: F8 | None
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@frozen(eq=False)
 class Spread:
     """What was found of a case beside its answer.
 

@@ -52,7 +52,7 @@ def many(tmp_path):
     """Decks that keep two processes busy for some seconds."""
     folder = tmp_path / "many"
     folder.mkdir()
-    return [Path(shutil.copy(MODELS / "rack_200.inp", folder / f"r{i:02d}.inp")) for i in range(14)]
+    return [Path(shutil.copy(MODELS / "rack_50.inp", folder / f"r{i:02d}.inp")) for i in range(14)]
 
 
 def summary(folder):
@@ -156,6 +156,26 @@ def test_a_deck_that_a_report_would_overwrite_is_refused(tmp_path, name):
     (tmp_path / name).write_text(FALLS)
     with pytest.raises(trunnion.BatchError, match=name):
         trunnion.batch([tmp_path / name], tmp_path)
+
+
+def test_files_of_other_programs_come_in_by_their_door(decks, tmp_path, monkeypatch):
+    from types import SimpleNamespace
+
+    import trunnion.formats
+
+    def read_any(path, *, permissive):
+        (tmp_path / f"asked{permissive}").touch()
+        return SimpleNamespace(model=trunnion.read(decks[0]))
+
+    monkeypatch.setattr(trunnion.formats, "is_foreign", lambda path: str(path).endswith(".xyz"))
+    monkeypatch.setattr(trunnion.formats, "read_any", read_any)
+    foreign = tmp_path / "line.xyz"
+    foreign.write_text("of another program")
+    for permissive in (False, True):
+        done = trunnion.batch([foreign], tmp_path / "out", permissive=permissive)
+        assert [(e.status, e.skipped) for e in done.entries] == [("certified", False)]
+        assert (tmp_path / f"asked{permissive}").exists()
+    assert trunnion.batch([foreign], tmp_path / "out", permissive=True)["line"].skipped
 
 
 # ------------------------------------------------------------------ what is not done twice
@@ -289,8 +309,9 @@ def test_interruption_leaves_nothing_half_written_and_no_process(many, tmp_path,
     wait_for_records(process, tmp_path / "out", 2)
     workers = children(process.pid)
     os.killpg(process.pid, number)  # as a terminal does
-    process.communicate(timeout=10)
+    _, err = process.communicate(timeout=10)
     assert process.returncode == code
+    assert ("finished decks stay" in err) == (number == signal.SIGINT)
     assert gone(workers)
     assert not hidden(tmp_path / "out")
     for record in (tmp_path / "out" / FOLDER).glob("*.json"):

@@ -16,7 +16,7 @@ from trunnion.many.axes import read_axes
 from trunnion.many.quantities import QUANTITIES
 from trunnion.report.study import study_report
 from trunnion.report.study_data import envelope_csv, study_json, variants_csv
-from trunnion.results.supports import card_forces
+from trunnion.results.supports import STATES, card_forces, card_states
 
 DECK = """\
 TITLE    A line with everything that a study may vary
@@ -201,6 +201,23 @@ def test_a_warm_start_finds_the_same_answers_in_fewer_passes(model):
     assert warm.work["iterations"] < cold.work["iterations"]
 
 
+def test_only_some_cases_of_a_deck_are_solved(model):
+    part = trunnion.study(model, ["MUX@OPE=0.5,1", "FACTOR@T1=1,2"], cases=["EXP"], jobs=1)
+    whole = trunnion.study(model, ["MUX@OPE=0.5,1", "FACTOR@T1=1,2"], jobs=1)
+    assert part.cases == ("EXP",)
+    assert np.array_equal(part.forces("EXP"), whole.forces("EXP"))
+    alone = trunnion.study(model, ["MUX@OPE=0.5,1"], cases=["OPE"], jobs=1)  # without SUS before it
+    assert np.array_equal(alone.forces("OPE"), whole.forces("OPE")[::2])
+    assert alone.work["solve"] < whole.work["solve"]
+
+
+def test_a_deck_without_cases_has_its_default_ones():
+    model = read_text(DECK[: DECK.index("CASE")], "none.inp")
+    done = trunnion.study(model, ["MUX@OPE=0.5,1", "T1=100,200"], jobs=1)
+    assert not done.failures
+    assert {"SUS", "OPE", "EXP"} <= set(done.cases)
+
+
 def test_friction_of_nothing_is_a_variant_like_others(model):
     done = trunnion.study(model, ["MU=0,0.3"], jobs=1)
     assert not done.failures
@@ -225,6 +242,20 @@ def test_the_envelope_names_the_variants_that_govern(model):
             for card, component in np.argwhere(which >= 0):
                 own = force[which[card, component], card, component]
                 assert own == pytest.approx(extreme[card, component], rel=1e-8, abs=1e-6)
+
+
+def test_states_of_a_support_are_counted_over_the_variants(model):
+    done = trunnion.study(model, ["T1=20,300", "GAP@20=0,30"], jobs=1)
+    counts = done.states("OPE")
+    assert (counts.sum(axis=1) == 4).all()
+    for i in range(4):
+        t, gap = done.values[i]
+        own = read_text(
+            DECK.replace("T1=170", f"T1={t}").replace("GAP=3", f"GAP={1e3 * gap}"), "own.inp"
+        )
+        words = card_states(trunnion.solve(own)["OPE"])
+        shown = [STATES[level] for level in done.answers.level[i, done.cases.index("OPE")]]
+        assert shown == words
 
 
 def test_variants_that_do_not_matter_name_the_first(model):
@@ -331,6 +362,25 @@ def test_variants_without_answer_are_listed_and_the_exit_code_is_one(tmp_path):
     assert second["converged"]
     assert sum(second["states"].values()) == 2
     assert found["envelope"]["PUSH"][0]["max_variant"][0] == 2
+
+
+@pytest.mark.parametrize(
+    ("vary", "said"), [("WALL=10,150", "WALL"), ("LINING=5,140", "LINING"), ("R@30=381,9000", "30")]
+)
+def test_a_variant_that_cannot_be_built_is_one_failure(model, vary, said):
+    done = trunnion.study(model, [vary], cases=["OPE"], jobs=1)
+    assert [i for i, _, _ in done.failures] == [1]
+    assert said in done.failures[0][2].upper()
+    assert done.good[0].all()
+
+
+def test_a_deck_that_moves_freely_is_refused_whatever_varies(tmp_path):
+    deck = tmp_path / "free.inp"
+    deck.write_text(HELD.replace(" Z RX", "").replace(" Z\n", "\n"))
+    code, out, err = command(deck, "--vary", "MU=0.1,0.3", "-o", tmp_path / "out")
+    assert (code, out) == (2, "")
+    assert "every variant: " in err
+    assert not (tmp_path / "out").exists()
 
 
 def test_files_of_a_study(tmp_path, model):

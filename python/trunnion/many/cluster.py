@@ -4,7 +4,7 @@ So workers need Trunnion of the same version and nothing else, no shared folder.
 decks of a worker that is lost to others; one at which several workers died is reported.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Generator, Sequence
 from pathlib import Path
 from time import sleep
 from typing import TYPE_CHECKING, Any
@@ -36,17 +36,20 @@ def solve_there(
     settings: Settings,
     address: str,
     tick: Callable[[], None] | None,
-) -> Iterator[Entry]:
+) -> Generator[Entry, None, None]:
     """Give the entries of decks as they come; leaving early cancels what is not done."""
     client = _connect(address)
     sent: dict[Future, Sent] = {}
     try:
         for deck in todo:
             try:
-                model, sources = read_deck(deck)
+                model, sources = read_deck(deck, settings)
                 marks = fingerprints(sources, deck)
             except (DeckError, ModelError) as error:
                 yield refused(deck, error)
+                continue
+            except Exception as error:
+                yield broken(deck, folder, error)
                 continue
             future = client.submit(solve_remote, model, deck.name, dict(settings), pure=False)
             sent[future] = deck, marks
@@ -62,9 +65,8 @@ def solve_there(
 
 def solve_remote(model: Model, deck: str, settings: Settings) -> tuple[Entry, dict[str, bytes]]:
     """Solve a model on a worker; what the program refuses is an entry without reports."""
-    here = settings_of(h5=bool(settings["h5"]))
-    if here != settings:
-        theirs, ours = settings["version"], here["version"]
+    theirs, ours = settings["version"], settings_of(h5=False)["version"]
+    if theirs != ours:
         raise RuntimeError(f"this worker has Trunnion {ours}, the batch is of {theirs}")
     try:
         return solve_model(model, Path(deck), settings)

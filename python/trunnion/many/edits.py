@@ -4,11 +4,12 @@ Every key means what it means on its card of the deck.
 """
 
 from collections.abc import Callable, Collection, Iterable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, TypeVar
 
 from trunnion.deck.keywords import PRESSURE_SETS
 from trunnion.deck.values import WordError, nearest
+from trunnion.frozen import frozen
 from trunnion.model import Case, Material, Model, Pipe
 
 Edit = Callable[[Model, float], Model]
@@ -17,7 +18,7 @@ Record = TypeVar("Record")
 FORCES = ("FX", "FY", "FZ", "MX", "MY", "MZ")
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Quantity:
     """One key of a study.
 
@@ -256,18 +257,11 @@ def factor(model: Model, label: str, part: str) -> Edit:
     cases = [c for c in model.cases if isinstance(c, Case)]
     _chosen(label, {t.name for c in cases for t in c.terms}, "load set of a case")
 
-    def edit(model: Model, value: float) -> Model:
-        def changed(case: Any) -> Any:
-            if not isinstance(case, Case) or all(t.name != label for t in case.terms):
-                return case
-            terms = (
-                replace(t, factor=t.factor * value) if t.name == label else t for t in case.terms
-            )
-            return replace(case, terms=tuple(terms))
+    def changed(case: Case, value: float) -> Case:
+        terms = (replace(t, factor=t.factor * value) if t.name == label else t for t in case.terms)
+        return replace(case, terms=tuple(terms))
 
-        return replace(model, cases=[changed(case) for case in model.cases])
-
-    return edit
+    return _on_cases([c.name for c in cases], changed)
 
 
 def of_case(name: str) -> Callable[[Model, str, str], Edit]:
@@ -276,9 +270,20 @@ def of_case(name: str) -> Callable[[Model, str, str], Edit]:
     def find(model: Model, label: str, part: str) -> Edit:
         _no_part(part)
         names = [c.name for c in model.cases if isinstance(c, Case) and not (c.about or c.on)]
-        chosen = _chosen(label, names, "CASE")
-        at = [i for i, c in enumerate(model.cases) if c.name in chosen]
         kind = int if name == "steps" else float
-        return _replaced("cases", at, lambda case, v: replace(case, **{name: kind(v)}))
+        chosen = _chosen(label, names, "CASE")
+        return _on_cases(chosen, lambda case, value: _with(case, name, kind(value)))
 
     return find
+
+
+def _on_cases(names: Collection[str], change: Callable[[Case, float], Case]) -> Edit:
+    """Change cases by name: a study may keep only some of the deck's."""
+
+    def edit(model: Model, value: float) -> Model:
+        cases = [
+            change(c, value) if isinstance(c, Case) and c.name in names else c for c in model.cases
+        ]
+        return replace(model, cases=cases)
+
+    return edit

@@ -11,7 +11,7 @@ import os
 import signal
 import sys
 from collections import deque
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Generator, Sequence
 from dataclasses import dataclass
 from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
@@ -54,7 +54,7 @@ def run_forked(
     *,
     tick: Callable[[], None] | None = None,
     swept: Callable[[int], None] | None = None,
-) -> Iterator[Ended[Result]]:
+) -> Generator[Ended[Result], None, None]:
     """Give the ends of all tasks as they come; leaving early stops every child.
 
     Parameters

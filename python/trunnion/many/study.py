@@ -3,16 +3,20 @@
 import os
 import traceback
 from collections.abc import Callable, Sequence
+from contextlib import closing
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from trunnion.arrays import B1, F8, I4, System
+from trunnion.cases.default_cases import with_cases
+from trunnion.errors import ModelError, Problem
 from trunnion.many.axes import Axis, combinations, read_axes
 from trunnion.many.forked import run_forked
 from trunnion.many.variants import Answers, Combination, Prepared, prepare, solve_block
 from trunnion.model import Model
-from trunnion.results.supports import Envelope, extremes
+from trunnion.results.supports import STATES, Envelope, extremes
 
 BLOCK = 25  # variants at a time; never a matter of the number of processes
 ALIKE = 1e-9  # loads that differ by less are the same: the first variant is named
@@ -59,6 +63,11 @@ class Study:
         found: F8 = self.answers.force[:, self.cases.index(case)]
         return found
 
+    def states(self, case: str) -> NDArray[np.int64]:
+        """(n_card, n_state) number of good variants in which a support is in each of STATES."""
+        level = self.answers.level[:, self.cases.index(case)]
+        return np.stack([(level == k).sum(axis=0) for k in range(len(STATES))], axis=1)
+
     def envelope(self, case: str) -> tuple[Envelope, I4] | None:
         """Extremes of every support's load over the good variants, and these variants' numbers.
 
@@ -99,8 +108,9 @@ def study(
     BatchError
         What is asked for cannot be varied, or a case is not there.
     DeckError, ModelError
-        The deck itself is wrong.
+        The deck itself is wrong, or no variant of it can be built.
     """
+    model = with_cases(model)
     axes = read_axes(model, vary)
     base = prepare(model, axes, [name.upper() for name in cases], warm=warm)
     every = combinations(axes)
@@ -111,13 +121,16 @@ def study(
         name: began.get(name, 0) + sum(part.work.get(name, 0) for part in parts)
         for name in dict.fromkeys([*began, *(name for part in parts for name in part.work)])
     }
+    answers = _joined(parts, work)
+    if answers.refused == len(every):
+        raise ModelError([Problem("every variant", answers.cause[0][0] or "")])
     return Study(
         title=model.title,
         axes=axes,
         names=tuple(_name(axes, combination) for combination in every),
         values=np.array([[a.values[i] for a, i in zip(axes, c, strict=True)] for c in every]),
         cases=base.cases,
-        answers=_joined(parts, work),
+        answers=answers,
         system=base.run.system,
         work=work,
     )
@@ -146,14 +159,15 @@ def _solve_all(
         except Exception as error:
             return "".join(traceback.format_exception(error))
 
-    for end in run_forked(blocks, work, jobs, tick=tick):
-        if end.result is None:
-            raise RuntimeError("; ".join(end.deaths))
-        if isinstance(end.result, str):
-            raise RuntimeError(end.result)
-        found[end.index] = end.result
-        if told is not None:
-            told(len(blocks[end.index]))
+    with closing(run_forked(blocks, work, jobs, tick=tick)) as ends:
+        for end in ends:
+            if end.result is None:
+                raise RuntimeError("; ".join(end.deaths))
+            if isinstance(end.result, str):
+                raise RuntimeError(end.result)
+            found[end.index] = end.result
+            if told is not None:
+                told(len(blocks[end.index]))
     return [found[i] for i in range(len(blocks))]
 
 
@@ -167,9 +181,10 @@ def _joined(parts: list[Answers], work: dict[str, int]) -> Answers:
         force=np.concatenate([part.force for part in parts]),
         both=np.max([part.both for part in parts], axis=0),
         move=np.concatenate([part.move for part in parts]),
-        count=np.concatenate([part.count for part in parts]),
+        level=np.concatenate([part.level for part in parts]),
         worst=np.concatenate([part.worst for part in parts]),
         where=[row for part in parts for row in part.where],
         cause=[row for part in parts for row in part.cause],
         work=work,
+        refused=sum(part.refused for part in parts),
     )

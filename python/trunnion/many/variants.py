@@ -6,18 +6,18 @@ from the answer of the deck as it is; never from another variant, so its numbers
 but itself.
 """
 
-import gc
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
-from trunnion.arrays import F8, I4, CaseResult, System
+from trunnion.arrays import F8, CaseResult, System
 from trunnion.cases.analysis import Run, Start
 from trunnion.cases.casetext import needed
-from trunnion.cases.default_cases import with_cases
+from trunnion.collector import paused
 from trunnion.deck.values import nearest
-from trunnion.errors import BatchError, DeckError, ModelError
+from trunnion.errors import BatchError, DeckError, ModelError, Problem
 from trunnion.loads import LoadSets, load_sets
 from trunnion.many.axes import Axis
 from trunnion.model import Case, Model
@@ -32,6 +32,7 @@ from trunnion.results.supports import (
 )
 from trunnion.system import with_supports
 
+I1 = NDArray[np.int8]
 Combination = tuple[int, ...]  # number of the value on each axis
 
 
@@ -53,25 +54,32 @@ class Prepared:
 
 @dataclass(slots=True, eq=False, repr=False)
 class Answers:
-    """Numbers of n variants; NaN (counts 0) where there is no certified answer.
+    """Numbers of n variants; NaN where there is no certified answer.
 
     force : (n, n_case, n_card, 6) on the pipe [N, N m].
     both : (n_case, n_card, 6) above zero where that is a size, which acts both ways.
     move : (n, n_case, n_card, 3) of the pipe at the support [m].
-    count : (n, n_case, 6) supports in each of STATES.
+    level : (n, n_case, n_card) index into STATES, -1 where there is no state.
     worst : (n, n_case) certificate.
     where, cause : by variant and case.
     work : of all of them.
+    refused : variants that cannot be built, or move freely with every contact closed.
     """
 
     force: F8
     both: F8
     move: F8
-    count: I4
+    level: I1
     worst: F8
     where: list[list[str]]
     cause: list[list[str | None]]
     work: dict[str, int]
+    refused: int = 0
+
+    @property
+    def count(self) -> NDArray[np.int64]:
+        """(n, n_case, n_state) supports in each of STATES."""
+        return np.stack([(self.level == k).sum(axis=2) for k in range(len(STATES))], axis=2)
 
 
 def prepare(model: Model, axes: tuple[Axis, ...], names: Sequence[str], *, warm: bool) -> Prepared:
@@ -85,15 +93,14 @@ def prepare(model: Model, axes: tuple[Axis, ...], names: Sequence[str], *, warm:
         The deck itself is wrong.
     """
     model.check()
-    chosen = with_cases(model)
-    known = [case.name for case in chosen.cases]
+    known = [case.name for case in model.cases]
     missing = [
         f"--case {n}: there is no such case{nearest(n, known)}" for n in names if n not in known
     ]
     if missing:
         raise BatchError("\n".join([*missing, "nothing was solved"]))
     wanted = tuple(n for n in known if n in names or not names)
-    chosen = replace(chosen, cases=needed(chosen, wanted), cycles=[])
+    chosen = replace(model, cases=needed(model, wanted), cycles=[])
     if not any(isinstance(case, Case) and case.spectrum for case in chosen.cases):
         chosen = replace(chosen, modal=None)
     run = Run(chosen, {})
@@ -124,21 +131,16 @@ def solve_block(base: Prepared, block: Sequence[Combination]) -> Answers:
         force=np.full((n, n_case, n_card, 6), np.nan),
         both=np.zeros((n_case, n_card, 6)),
         move=np.full((n, n_case, n_card, 3), np.nan),
-        count=np.zeros((n, n_case, len(STATES)), np.int32),
+        level=np.full((n, n_case, n_card), -1, np.int8),
         worst=np.full((n, n_case), np.nan),
         where=[[""] * n_case for _ in block],
         cause=[[None] * n_case for _ in block],
         work={},
     )
     before, cache = base.run.ledger.snapshot(), _Cache()
-    collects = gc.isenabled()
-    gc.disable()  # it would go over all records of the model again and again
-    try:
+    with paused():
         for i, combination in enumerate(block):
             _fill(base, combination, cache, out, i)
-    finally:
-        if collects:
-            gc.enable()
     out.work = base.run.ledger.since(before)
     return out
 
@@ -150,6 +152,7 @@ def _fill(base: Prepared, combination: Combination, cache: "_Cache", out: Answer
     except (DeckError, ModelError) as error:
         text = "; ".join(problem.text for problem in error.problems)
         out.cause[i] = [text] * len(base.cases)
+        out.refused += 1
         return
     for j, name in enumerate(base.cases):
         _read_out(base, found[name], out, i, j)
@@ -184,7 +187,7 @@ def _made_anew(
     home = base.run
     if members:
         if members not in cache.runs:
-            model.check()
+            _check(model)
             cache.runs[members] = Run(model, {}, like=base.run)
         home = cache.runs[members]
     system, sets = home.system, home.sets
@@ -194,9 +197,25 @@ def _made_anew(
         system = cache.systems[members, supports]
     if loads:
         if (members, loads) not in cache.sets:
+            _check(model)
             cache.sets[members, loads] = load_sets(model, system)
         sets = cache.sets[members, loads]
     return home, system, sets
+
+
+def _check(model: Model) -> None:
+    """Check what a card checks of the values that it gives together, and the whole model."""
+    model.check()
+    problems = []
+    for s in model.sections.values():
+        if s.wall > 0.5 * s.od * (1.0 + 1e-5):  # as on the card
+            problems.append(Problem(s.place, f"SECTION {s.name}: WALL is more than half of OD"))
+        elif s.lining > 0.5 * s.od - s.wall:
+            problems.append(
+                Problem(s.place, f"SECTION {s.name}: LINING is more than half the bore")
+            )
+    if problems:
+        raise ModelError(problems)
 
 
 def _warm(base: Prepared, model: Model, system: System) -> dict[str, Start]:
@@ -224,4 +243,4 @@ def _read_out(base: Prepared, case: CaseResult, out: Answers, i: int, j: int) ->
     out.move[i, j] = case.state.u[base.node, :3]
     out.both[j] = without_sign(case)
     if case.gathered is None:
-        out.count[i, j] = np.bincount(card_levels(case), minlength=len(STATES))
+        out.level[i, j] = card_levels(case)

@@ -103,7 +103,7 @@ def _on_restraint(study: Study, name: str) -> tuple[F8, F8, F8, F8] | None:
 
 def _envelope(study: Study, name: str, units: ReportUnits) -> str:
     """Print a block a support: extremes of each component and the variants that govern them."""
-    note = "forces and moments ON THE RESTRAINT, global; below each its variant (chapter 4)"
+    note = "ON THE RESTRAINT, global; states with numbers of variants; governing variants (see 4)"
     text = section(f"{name}: EVERY RESTRAINT", note)
     found = _on_restraint(study, name)
     cards = study.system.cards
@@ -120,11 +120,12 @@ def _envelope(study: Study, name: str, units: ReportUnits) -> str:
     lead = words("", ["VARIANT"], least=12)
     row = "  " + lead.form + "".join(c.form for c in columns) + "\n"
     cells = list(zip(*(c.cells for c in columns), strict=True))
-    out = [headings([lead, *columns])]
+    out, states = [headings([lead, *columns])], study.states(name)
     for i, card in enumerate(cards):
         if not which[i].any():
             continue
-        out.append(f"  {card.name}\n")
+        seen = [f"{word} {n}" for word, n in zip(STATES, states[i].tolist(), strict=True) if n]
+        out.append(f"  {card.name}   {', '.join(seen)}".rstrip() + "\n")
         for k, word in enumerate(("MAX", "MIN")):
             out.append(row % (word, *cells[2 * i + k]))
             names = [str(v) if v else "-" for v in which[i, k].tolist()]
@@ -137,13 +138,12 @@ def _largest(study: Study, name: str, units: ReportUnits) -> str:
     found = _on_restraint(study, name)
     if found is None or not study.system.cards:
         return f"{name}: no loads"
-    load = np.stack(found[:2])[..., :3]
-    which = np.stack(found[2:])[..., :3].astype(int)
-    side, axis = np.unravel_index(
-        np.abs(load).transpose(1, 0, 2).reshape(load.shape[1], -1).argmax(axis=1), (2, 3)
+    load, which = (
+        np.concatenate([a[:, :3] for a in pair], axis=1) for pair in (found[:2], found[2:])
     )
-    card = np.arange(load.shape[1])
-    value, variant = load[side, card, axis], which[side, card, axis]
+    column = np.abs(load).argmax(axis=1)
+    card = np.arange(len(load))
+    value, variant, axis = load[card, column], which[card, column].astype(int), column % 3
     order = np.argsort(-np.abs(value), kind="stable")[:SHOWN]
     q = units.force.showing(float(np.abs(value).max(initial=0.0)))
     names = [study.names[v - 1] if v else "-" for v in variant[order].tolist()]
@@ -162,7 +162,7 @@ def _largest(study: Study, name: str, units: ReportUnits) -> str:
 def _variants(study: Study, j: int, units: ReportUnits) -> str:
     """Print one row a variant: values, states of the supports, certificate, largest load."""
     a, axes = study.answers, study.axes
-    good = study.good[:, j]
+    good, count = study.good[:, j], a.count[:, j]
     force = np.linalg.norm(np.nan_to_num(a.force[:, j, :, :3]), axis=2)
     at = force.argmax(axis=1) if force.shape[1] else np.zeros(len(good), int)
     largest = force.max(axis=1, initial=0.0)
@@ -186,9 +186,9 @@ def _variants(study: Study, j: int, units: ReportUnits) -> str:
         )
     )
     columns += [
-        integers(state.upper()[:7], a.count[:, j, k].tolist(), 8)
+        integers(state.upper()[:7], count[:, k].tolist(), 8)
         for k, state in enumerate(STATES)
-        if a.count[:, j, k].any()
+        if count[:, k].any()
     ]
     columns.append(numbers("LARGEST", np.where(good, largest, np.nan), q, 12))
     columns.append(words("  ON RESTRAINT", where))

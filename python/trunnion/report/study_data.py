@@ -2,6 +2,7 @@
 
 import csv
 import io
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -23,31 +24,27 @@ def study_json(study: Study) -> bytes:
         "title": dump(study.title),
         "axes": listing(axes),
         "cases": dump(list(study.cases)),
-        "variants": listing(dump(_variant(study, i)) for i in range(len(study.names))),
+        "variants": listing(_variants(study)),
         "envelope": lines({name: _envelope(study, name) for name in study.cases}),
         "work": dump(study.work),
     }
     return (lines(parts) + "\n").encode()
 
 
-def _variant(study: Study, i: int) -> dict[str, object]:
-    a = study.answers
-    cases = {}
-    for j, name in enumerate(study.cases):
-        good = a.cause[i][j] is None
-        states = {word: int(n) for word, n in zip(STATES, a.count[i, j], strict=True) if n}
-        cases[name] = {
-            "converged": good,
-            "cause": a.cause[i][j],
-            "certificate": {"worst": finite(float(a.worst[i, j])), "where": a.where[i][j]},
-            "states": states,
+def _variants(study: Study) -> Iterator[str]:
+    a, count = study.answers, study.answers.count
+    for i, name in enumerate(study.names):
+        cases = {
+            case: {
+                "converged": a.cause[i][j] is None,
+                "cause": a.cause[i][j],
+                "certificate": {"worst": finite(float(a.worst[i, j])), "where": a.where[i][j]},
+                "states": {w: int(n) for w, n in zip(STATES, count[i, j], strict=True) if n},
+            }
+            for j, case in enumerate(study.cases)
         }
-    return {
-        "variant": i + 1,
-        "name": study.names[i],
-        "values": study.values[i].tolist(),
-        "cases": cases,
-    }
+        values = study.values[i].tolist()
+        yield dump({"variant": i + 1, "name": name, "values": values, "cases": cases})
 
 
 def _envelope(study: Study, name: str) -> str:
@@ -55,7 +52,7 @@ def _envelope(study: Study, name: str) -> str:
     if found is None:
         return "[]"
     extremes, good = found
-    cards = study.system.cards
+    cards, states = study.system.cards, study.states(name)
 
     def variants(which: I4) -> list[str]:
         chosen = np.where(which < 0, 0, good[which] + 1)
@@ -66,6 +63,10 @@ def _envelope(study: Study, name: str) -> str:
             {
                 "id": words(card_ids(cards)),
                 "name": words(card.name for card in cards),
+                "states": [
+                    dump({w: n for w, n in zip(STATES, row, strict=True) if n})
+                    for row in states.tolist()
+                ],
                 "max": rows(extremes.highest),
                 "max_variant": variants(extremes.highest_case),
                 "min": rows(extremes.lowest),
@@ -109,12 +110,12 @@ def variants_csv(study: Study) -> bytes:
     writer = csv.writer(out, lineterminator="\n")
     names = [axis.name for axis in study.axes]
     writer.writerow(["variant", *names, "case", "converged", "certificate", *STATES, "cause"])
-    a = study.answers
+    a, count = study.answers, study.answers.count
     for i in range(len(study.names)):
         for j, name in enumerate(study.cases):
             good = a.cause[i][j] is None
             worst = repr(float(a.worst[i, j])) if good else ""
             values = [repr(value) for value in study.values[i].tolist()]
-            row = [i + 1, *values, name, int(good), worst, *a.count[i, j].tolist()]
+            row = [i + 1, *values, name, int(good), worst, *count[i, j].tolist()]
             writer.writerow([*row, a.cause[i][j] or ""])
     return out.getvalue().encode()

@@ -10,10 +10,10 @@ from trunnion.report.echo import input_echo
 from trunnion.report.frozen import frozen_table, frozen_warning
 from trunnion.report.loops import cycle_report, cycle_warnings
 from trunnion.report.modes import mode_report, mode_warnings
+from trunnion.report.origin import origin_text
 from trunnion.report.points import middle_table, sag_table, stress_table
 from trunnion.report.proof import balance_table, certificate_table, history_table, ledger_table
 from trunnion.report.restraints import restraint_summary
-from trunnion.report.spread import spread_report
 from trunnion.report.states import state_table
 from trunnion.report.summary import summary_table
 from trunnion.report.units import ReportUnits, report_units
@@ -33,6 +33,7 @@ def text_report(results: Results, model: Model) -> bytes:
     own = [case for case in with_cases(model).cases if isinstance(case, Case)]
     parts = ["TRUNNION   static analysis of piping with nonlinear supports\n"]
     parts.append(f"{results.title or '(no title)'}\n")
+    parts.append(origin_text(model.origin))
     parts.append(chapter("1  SUMMARY"))
     parts.append(summary_table(results, units))
     parts += [wrapped(f"{c.name}: {cause_of(c)}") for c in results.cases.values() if not is_good(c)]
@@ -55,6 +56,8 @@ def text_report(results: Results, model: Model) -> bytes:
     if results.cycles:
         more["CYCLES"] = [cycle_report(cycle, units) for cycle in results.cycles.values()]
     if results.spreads:
+        from trunnion.report.spread import spread_report
+
         more["OTHER ANSWERS"] = [spread_report(s, results, units) for s in results.spreads.values()]
     for number, (title, texts) in enumerate(more.items(), 5):
         parts += [chapter(f"{number}  {title}"), *texts]
