@@ -499,6 +499,30 @@ class Spread:
     cause: str | None = None
 
 
+@frozen
+class HangerChoice:
+    """One hanger that the program selected; loads and rate of its springs together.
+
+    kind : spring, rod, constant or none.
+    hot, cold : loads in operation and cold [N]; rate [N/m]; travel upwards [m].
+    variation : rate x travel / hot load.
+    reason : why it is no spring.
+    """
+
+    node: str
+    name: str | None
+    kind: str
+    series: str
+    size: str
+    number: int
+    hot: float
+    cold: float
+    rate: float
+    travel: float
+    variation: float
+    reason: str
+
+
 @dataclass(slots=True)
 class Results:
     """All cases of one run, in the deck's order."""
@@ -511,6 +535,7 @@ class Results:
     base: System | None = None  # the system whose contacts have gaps; cases may have others
     modes: ModeSet | None = None  # where the deck asks for them
     spreads: dict[str, Spread] = field(default_factory=dict)  # where other starts were asked for
+    hangers: tuple[HangerChoice, ...] = ()  # that the program selected
 
     def __getitem__(self, name: str) -> CaseResult:
         """Return the case called `name`."""

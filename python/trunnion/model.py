@@ -232,6 +232,31 @@ class Direction:
 
 
 @frozen
+class SpringSize:
+    """SPRINGSIZE: one size of the table from which hangers are selected."""
+
+    name: str
+    series: str
+    least: float  # working loads [N]
+    most: float
+    rate: float  # [N/m]
+    place: Place = field(default=Place(), compare=False)
+
+
+@frozen
+class HangerDesign:
+    """What is asked of a hanger that the program selects (HANGER ... DESIGN)."""
+
+    variation: float = 0.25  # most change of load, of the hot load
+    rod: float = 0.0025  # a rigid rod where the travel is no more [m]
+    most: float | None = None  # a constant support where it is more [m]
+    number: int = 1  # springs side by side
+    method: str = "HOT"  # the weight is balanced hot, or COLD
+    series: str | None = None  # of the table; None: all, in their order
+    operating: str | None = None  # case of the travel; None: first with weight and heat
+
+
+@frozen
 class Support:
     """One ANCHOR, SUPPORT, HANGER or one-node SPRING card.
 
@@ -251,6 +276,7 @@ class Support:
     ks: tuple[float, float, float, float, float, float] | None = None
     axis: tuple[float, float, float] | None = None  # local x of a spring's ks
     place: Place = field(default=Place(), compare=False)
+    design: HangerDesign | None = None  # of a hanger that the program selects
 
 
 @frozen
@@ -465,6 +491,7 @@ class Model:
     accelerations: list[Acceleration] = field(default_factory=list)
     winds: list[Wind] = field(default_factory=list)
     snows: list[Snow] = field(default_factory=list)
+    spring_sizes: list[SpringSize] = field(default_factory=list)
     spectra: dict[str, Spectrum] = field(default_factory=dict)
     groups: list[Group] = field(default_factory=list)
     modal: Modes | None = None  # what the MODES card asks for
@@ -547,9 +574,13 @@ class Model:
         """Add a restraint: "+Y", ("GUIDE", {"GAP": 0.003}), (0.6, 0.8, 0.0); keys are common."""
         self._add("SUPPORT", (node, *directions), keys)
 
-    def hanger(self, node: Label, **keys: Value) -> None:
-        """Add a spring hanger: RATE= LOAD=."""
-        self._add("HANGER", (node,), keys)
+    def hanger(self, node: Label, *design: str, **keys: Value) -> None:
+        """Add a spring hanger: RATE= LOAD=, or "DESIGN" to have it selected."""
+        self._add("HANGER", (node, *design), keys)
+
+    def springsize(self, name: str, **keys: Value) -> None:
+        """Add a size to the table of springs: SERIES= MIN= MAX= RATE=."""
+        self._add("SPRINGSIZE", (name,), keys)
 
     def snubber(self, node: Label, direction: str | Sequence[float], **keys: Value) -> None:
         """Hold X, Y, Z or (a,b,c) in occasional cases and modes only: K= CNODE= NAME=."""

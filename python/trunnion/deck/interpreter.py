@@ -36,6 +36,7 @@ ACTIONS: dict[str, Callable[[Context, Record], None]] = {
     "ANCHOR": restraints.anchor,
     "SUPPORT": restraints.support,
     "HANGER": restraints.hanger,
+    "SPRINGSIZE": restraints.spring_size,
     "SNUBBER": restraints.snubber,
     "FORCE": sets.force,
     "DISPLACEMENT": sets.displacement,

@@ -487,17 +487,58 @@ TABLE: tuple[Keyword, ...] = (
     ),
     Keyword(
         "HANGER",
-        "A spring hanger: vertical rate and cold load.",
-        (_node("node"),),
+        "A spring hanger: vertical rate and cold load, or one that the program selects.",
+        (
+            _node("node"),
+            Positional("design", "choice", "DESIGN: select it", ("DESIGN",), optional=True),
+        ),
         (
             _number("RATE", "spring rate, 0 for constant effort", "stiffness", "0", NOT_NEGATIVE),
+            _number("LOAD", "cold load, upward on the pipe", "force", "an error", NOT_NEGATIVE),
             _number(
-                "LOAD", "cold load, upward on the pipe", "force", "", NOT_NEGATIVE, required=True
+                "VARIATION", "most change of load, of the hot load", "number", "0.25", POSITIVE
+            ),
+            _number("ROD", "rigid rod up to this travel", "length", "2.5 mm", NOT_NEGATIVE),
+            _number("MAXTRAVEL", "constant support above this travel", "length", "none", POSITIVE),
+            Key("NUMBER", "springs", kind="integer", default="1", bounds=Bounds(1, 100)),
+            _choice("METHOD", "when the weight is balanced", ("HOT", "COLD"), "HOT"),
+            Key("SERIES", "series of the table", kind="name", default="all, in their order"),
+            Key(
+                "OPERATING",
+                "case that gives the travel",
+                kind="name",
+                default="the first CASE with weight, and temperature or movement",
             ),
             _CNODE,
             _NAME,
         ),
+        notes=(
+            "RATE and LOAD, or DESIGN with VARIATION to OPERATING.",
+            "DESIGN: W on rigid hangers gives the hot load; the operating case with the hot loads "
+            "as constant forces gives the travel. The first size, by series and load, that "
+            "carries hot and cold load and whose load changes by at most VARIATION is taken; a "
+            "rigid rod up to ROD, a constant support where no spring fits. It then acts in all "
+            "cases: write H in those with weight.",
+        ),
         example="HANGER 45 RATE=50N/mm LOAD=6.2",
+    ),
+    Keyword(
+        "SPRINGSIZE",
+        "One size of the table of springs for HANGER DESIGN; any such card replaces the "
+        "generic table.",
+        (Positional("name", "name", "name of the size"),),
+        (
+            Key("SERIES", "series, in the order in which they come", kind="name", required=True),
+            _number("MIN", "least working load", "force", "", NOT_NEGATIVE, required=True),
+            _number("MAX", "largest working load", "force", "", POSITIVE, required=True),
+            _number("RATE", "spring rate", "stiffness", "", POSITIVE, required=True),
+        ),
+        notes=(
+            "Without these cards the table is generic, of no maker: series SHORT, MEDIUM and LONG "
+            "with 32, 63 and 125 mm working travel, largest loads from 0.4 to 200 kN in preferred "
+            "numbers (ISO 3, R10), least load half of the largest.",
+        ),
+        example="SPRINGSIZE VS-12 SERIES=VS MIN=4.2 MAX=7.5 RATE=55N/mm",
     ),
     Keyword(
         "SNUBBER",

@@ -16,18 +16,21 @@ from trunnion.deck.case_writer import card as _card
 from trunnion.deck.keywords import KEYWORDS
 from trunnion.deck.properties import graded
 from trunnion.deck.reader import read_text
+from trunnion.deck.restraints import DESIGN_KEYS
 from trunnion.errors import DeckError, ModelError, Problem
 from trunnion.library.names import UnknownName
 from trunnion.model import (
     INFINITE,
     Bend,
     Direction,
+    HangerDesign,
     Material,
     Model,
     Operation,
     Pipe,
     Section,
     Settings,
+    SpringSize,
     Support,
     Uniform,
 )
@@ -192,6 +195,7 @@ class _Writer:
             (model.bends, self.bend_card),
             (model.springs, self.spring_card),
             (model.masses, self.mass_card),
+            (model.spring_sizes, self.size_card),
             (model.supports, self.support_card),
             (model.displacements, self.displacement_card),
             (model.forces, self.force_card),
@@ -365,8 +369,7 @@ class _Writer:
                 values = {"K": support.k, "KR": support.kr, **common}
                 yield _card("ANCHOR", node, self.keys("ANCHOR", values))
             case "hanger":
-                values = {"RATE": support.k or None, "LOAD": support.load, **common}
-                yield _card("HANGER", node, self.keys("HANGER", values))
+                yield self.hanger_card(support, common)
             case "snubber":
                 (direction,) = support.directions
                 word = direction.word if direction.vector is None else self.vector(direction.vector)
@@ -379,6 +382,25 @@ class _Writer:
                 common["FRICTION"] = next((d.friction for d in support.directions), None)
                 words = [*node, *(w for d in support.directions for w in self.direction(d))]
                 yield _card("SUPPORT", words, self.keys("SUPPORT", common))
+
+    def hanger_card(self, support: Support, common: dict[str, Any]) -> str:
+        """Write a hanger, given or to be selected."""
+        wanted, usual = support.design, HangerDesign()
+        if wanted is None:
+            values = {"RATE": support.k or None, "LOAD": support.load, **common}
+            return _card("HANGER", [support.node], self.keys("HANGER", values))
+        asked = {
+            key: value
+            for key, name in DESIGN_KEYS.items()
+            if (value := getattr(wanted, name)) != getattr(usual, name)
+        }
+        keys = self.keys("HANGER", {**asked, **common})
+        return _card("HANGER", [support.node, "DESIGN"], keys)
+
+    def size_card(self, size: SpringSize) -> Iterator[str]:
+        """Write one size of the table of springs."""
+        values = {"SERIES": size.series, "MIN": size.least, "MAX": size.most, "RATE": size.rate}
+        yield _card("SPRINGSIZE", [size.name], self.keys("SPRINGSIZE", values))
 
     def direction(self, direction: Direction) -> Iterator[str]:
         """Write a direction word and its keys."""
