@@ -17,6 +17,7 @@ from trunnion.frozen import frozen
 from trunnion.model import Model
 from trunnion.results.balance import section_forces
 from trunnion.results.interior import places, points
+from trunnion.results.stresses import RIGID as BODIES
 from trunnion.results.stresses import pipe_elements, pipe_stresses
 from trunnion.results.supports import (
     card_forces,
@@ -30,7 +31,7 @@ from trunnion.results.supports import (
 
 PARTS = 8  # of a straight pipe
 DEGREES = 5.0  # most angle of one part of a bend
-RIGID = 3  # kind of a rigid body; 0, 1, 2 are those of System.kind
+RIGID = 4  # kind of a rigid body; 0 to 3 are those of System.kind
 NO_STATE = -1  # of a restraint in a combination
 
 Data = dict[str, NDArray[np.generic] | tuple[F8, ...]]
@@ -118,7 +119,7 @@ def _pipes(case: CaseResult) -> bytes:
         "radius": 0.5 * od,
         "fraction": lines.fraction,
     }
-    rigid = np.array([part.type == "rigid" for part in system.parts])
+    rigid = np.array([part.type in BODIES for part in system.parts])
     force = state.end_force
     cells: Data = {
         "element": np.arange(len(system.kind), dtype=np.int32),
