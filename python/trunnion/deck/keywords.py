@@ -356,7 +356,7 @@ TABLE: tuple[Keyword, ...] = (
             "All diameters change linearly from end to end. The stiffness is the exact integral "
             "of that, weights too; wind takes the mean width.",
         ),
-        example="REDUCER 50 60 DX=178 TO=S6 FLAT=DOWN",
+        example="REDUCER 55 56 DX=178 TO=S6 FLAT=DOWN",
     ),
     Keyword(
         "JOINT",
@@ -394,7 +394,7 @@ TABLE: tuple[Keyword, ...] = (
             "that carry it are RIGID and SPRING cards beside the joint.",
             "Half of the weight and of the contents stands at each end.",
         ),
-        example="JOINT 60 70 DX=300 AXIAL=180N/mm LATERAL=95N/mm AREA=62000mm2",
+        example="JOINT 56 57 DX=300 AXIAL=180N/mm LATERAL=95N/mm AREA=62000mm2",
     ),
     Keyword(
         "UNIFORM",

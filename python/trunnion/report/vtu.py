@@ -12,7 +12,7 @@ from tempfile import TemporaryDirectory
 import numpy as np
 from numpy.typing import NDArray
 
-from trunnion.arrays import ARC, F8, SPRING, CaseResult, Results, System
+from trunnion.arrays import ARC, F8, SPRING, TAPER, CaseResult, Results, System
 from trunnion.frozen import frozen
 from trunnion.model import Model
 from trunnion.results.balance import section_forces
@@ -31,7 +31,7 @@ from trunnion.results.supports import (
 
 PARTS = 8  # of a straight pipe
 DEGREES = 5.0  # most angle of one part of a bend
-RIGID = 4  # kind of a rigid body; 0 to 3 are those of System.kind
+RIGID, REDUCER = 3, 4  # kinds of cells; 0, 1, 2 are those of System.kind
 NO_STATE = -1  # of a restraint in a combination
 
 Data = dict[str, NDArray[np.generic] | tuple[F8, ...]]
@@ -120,10 +120,11 @@ def _pipes(case: CaseResult) -> bytes:
         "fraction": lines.fraction,
     }
     rigid = np.array([part.type in BODIES for part in system.parts])
+    taper = system.kind == TAPER
     force = state.end_force
     cells: Data = {
         "element": np.arange(len(system.kind), dtype=np.int32),
-        "kind": np.where(rigid, RIGID, system.kind).astype(np.int32),
+        "kind": np.where(rigid, RIGID, np.where(taper, REDUCER, system.kind)).astype(np.int32),
         "force_from": _vector(force[:, 0, :3]),
         "moment_from": _vector(force[:, 0, 3:]),
         "force_to": _vector(force[:, 1, :3]),
