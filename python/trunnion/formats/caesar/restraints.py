@@ -181,7 +181,7 @@ class Restraints:
         variation = h.variation / 100.0
         design = HangerDesign(variation, h.rod, h.most, min(n, 100), method)
         name = self._name(h.tag)
-        made = Support(label, "hanger", (), cnode, name, place=place, design=design)
+        made = Support(label, "hanger", (), cnode, name, 0.0, place=place, design=design)
         self.model.supports.append(made)
         self.findings.note(made, f"hanger of line {h.line}, to be designed; table {h.table}")
         text = "springs of hangers are selected from Trunnion's generic table, of no maker"
