@@ -2,7 +2,8 @@
 #   make demo     solve two piping systems, reports in demo/
 #   make test     every test                        (make test ARGS="-k friction -x")
 #   make lint     ruff, mypy, fortitude
-#   make bench    the rack lines of benchmarks/     (make bench NODES="50 200" CASES=fric1)
+#   make bench    time, error and memory, peers, sweeps: tables and pictures in build/bench
+#                 (bench-quick, bench-docs, bench-million, bench-peers; OUT=folder ONLY="racks whole")
 BIN := .venv/bin
 READY := .venv/.ready
 
@@ -13,12 +14,11 @@ export OMP_NUM_THREADS := 1
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
 DEMO := b313_s302 hot_header
-NODES := 50 200 1000
-CASES := lin gap fric1 fric10
-RACKS := tests/data
+OUT := build/bench
+ONLY :=
 ARGS :=
 
-.PHONY: demo test lint bench debug-test build clean
+.PHONY: demo test lint bench bench-quick bench-docs bench-million bench-peers debug-test build clean
 
 demo: build
 	@mkdir -p demo
@@ -36,12 +36,23 @@ lint: $(READY)
 	    $(BIN)/$$check || failed=1; \
 	done; exit $$failed
 
+BENCH = $(BIN)/python benchmarks/bench.py $(if $(ONLY),--only $(ONLY))
+
 bench: build
-	@mkdir -p build/bench
-	@set -e; for n in $(NODES); do for case in $(CASES); do \
-	    $(BIN)/python benchmarks/rack.py $(RACKS)/rack_$$n.json.gz $$case \
-	        -o build/bench/rack_$${n}_$$case.json; \
-	done; done
+	@$(BENCH) -o $(OUT)
+
+bench-quick: build
+	@$(BENCH) --scope quick -o $(OUT)
+
+bench-docs: build
+	@$(BENCH) --docs
+
+bench-million: build
+	@$(BIN)/python benchmarks/bench.py --only million $(if $(filter docs,$(OUT)),--docs,-o $(OUT))
+
+bench-peers: build
+	@$(BIN)/pip install --quiet --disable-pip-version-check --no-build-isolation \
+	    --config-settings=build-dir=build/editable --editable '.[hdf5,bench,peers]'
 
 # The debug build keeps its own directory; only what the Fortran tests need is built in it.
 debug-test: $(READY)
