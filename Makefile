@@ -52,11 +52,11 @@ bench-million: build
 
 bench-peers: build
 	@$(BIN)/pip install --quiet --disable-pip-version-check --no-build-isolation \
-	    --config-settings=build-dir=build/editable --editable '.[hdf5,bench,peers]'
+	    --config-settings=build-dir=build/editable --editable '.[bench,dask,hdf5,peers]'
 
 # The debug build keeps its own directory; only what the Fortran tests need is built in it.
 debug-test: $(READY)
-	@test -f build/debug/build.ninja || $(BIN)/meson setup build/debug --buildtype=debug --werror \
+	@test -f build/debug/build.ninja || $(BIN)/meson setup build/debug --buildtype=debug --werror -Db_lto=false \
 	    -Db_sanitize=address,undefined
 	@$(BIN)/meson test -C build/debug --print-errorlogs
 

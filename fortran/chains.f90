@@ -16,7 +16,6 @@ module chains
    private
    public :: chain_end_forces, chain_loads, chain_stiffness
 
-   integer, parameter :: n_sweep = 6
    real(wp), parameter :: closed = 16.0_wp*epsilon(1.0_wp)   !! misfit at the tip, relative
 
 contains
@@ -106,22 +105,23 @@ contains
    !> `u`, `low` hold all nodes; those of the kept ones are given.  Where the displacement that
    !> the sweep arrives at misses the tip's own, the tip force is corrected by the chain's
    !> stiffness: the law of the chain then holds to the last digits, however its stiffness was
-   !> rounded.
+   !> rounded.  `bias` keeps these corrections for the next call, which needs one sweep then.
    pure subroutine chain_end_forces(first, element, flip, far, base, place, f, axes, d, k, axes_c, &
-         & d_c, v0, w, v0_c, w_c, nodal, u, low, force, r)
+         & d_c, v0, w, v0_c, w_c, nodal, most, bias, u, low, force, r)
       integer(ip), intent(in) :: first(:), element(:), flip(:), far(:)
       integer(ip), intent(in) :: base(:)                !! (n_chain) node at the base
       integer(ip), intent(in) :: place(:)               !! (n_node) number among the kept ones
       real(wp), intent(in) :: f(:, :, :), axes(:, :, :), d(:, :)
       real(wp), intent(in) :: k(:, :, :), axes_c(:, :, :), d_c(:, :)
       real(wp), intent(in) :: v0(:, :), w(:, :), v0_c(:, :), w_c(:, :), nodal(:, :)
+      integer(ip), intent(in) :: most                   !! sweeps at the most
+      real(wp), intent(inout) :: bias(:, :)             !! (6, n_chain) added to k v, its axes
       real(wp), intent(inout) :: u(:, :), low(:, :)     !! (6, n_node)
       real(wp), intent(out) :: force(:, :, :)           !! (6, 2, n_elem) global, on the element
       real(wp), intent(inout) :: r(:, :)                !! (6, n_kept)
 
       real(wp) :: q(6), v(6), miss(6), wrong, last, end_c(6, 2)
-      integer(ip) :: c, a, b, e, from, to
-      integer :: i
+      integer(ip) :: c, a, b, e, from, to, i
 
       do c = 1_ip, size(base, kind=ip)
          from = first(c) + 1_ip
@@ -134,15 +134,17 @@ contains
          if (from == to) then
             force(:, :, element(to) + 1_ip) = end_c
          else
-            q = end_c(:, 2)
+            q = end_c(:, 2) + turn_to_global(axes_c(:, :, c), bias(:, c))
             last = huge(1.0_wp)
-            do i = 1, n_sweep
+            do i = 1_ip, most
                call sweep(element(from:to), flip(from:to), far(from:to), f, axes, d, v0, w, nodal, &
                   & a, q, norm2(d_c(:, c)), u, low, force, miss, wrong)
                if (wrong <= closed .or. .not. wrong < 0.5_wp*last) exit
+               if (i == most) exit
                last = wrong
-               miss = turn_to_local(axes_c(:, :, c), miss)
-               q = q + turn_to_global(axes_c(:, :, c), matmul(k(:, :, c), miss))
+               miss = matmul(k(:, :, c), turn_to_local(axes_c(:, :, c), miss))
+               bias(:, c) = bias(:, c) + miss
+               q = q + turn_to_global(axes_c(:, :, c), miss)
             end do
             e = element(from) + 1_ip
             end_c(:, 1) = force(:, 1_ip + flip(from), e)

@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from trunnion.frozen import frozen
+
 if TYPE_CHECKING:
     from trunnion.results.tables import Table
 
@@ -22,7 +24,7 @@ B1 = NDArray[np.bool_]
 STRAIGHT, ARC, SPRING = 0, 1, 2  # System.kind
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@frozen(eq=False)
 class Contacts:
     """One item a direction word: a normal (or a plane of two normals) with two sides.
 
@@ -70,7 +72,7 @@ def no_contacts() -> Contacts:
     )
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@frozen(eq=False)
 class Sliders:
     """One item a friction element: Coulomb sliding in a fixed line or plane.
 
@@ -105,7 +107,7 @@ def no_sliders() -> Sliders:
     )
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Card:
     """One support of the JSON and of the restraint table: a card of the deck."""
 
@@ -116,7 +118,7 @@ class Card:
     line: int
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Part:
     """Names of one element: labels of its ends, type and the section and material used."""
 
@@ -128,7 +130,7 @@ class Part:
     line: int
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@frozen(eq=False)
 class System:
     """A numbered model.
 
@@ -174,7 +176,7 @@ class System:
     snubbers: Contacts = field(default_factory=no_contacts)
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@frozen(eq=False)
 class Loads:
     """Loads of one case (or of a fraction of it).
 
@@ -246,7 +248,7 @@ class State:
     datum_end: F8
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Item:
     """One line of a certificate: the value, its limit and where it is worst."""
 
@@ -255,7 +257,7 @@ class Item:
     where: str
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Certificate:
     """What can be checked from the printed numbers; `worst` is the largest item."""
 
@@ -266,7 +268,7 @@ class Certificate:
     inherited: bool = False
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class FrozenBreak:
     """A support for which the frozen contact state of a locked case does not hold.
 
@@ -280,7 +282,7 @@ class FrozenBreak:
     amount: float
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@frozen(eq=False)
 class Gathered:
     """Numbers of a result without contact states: a combination or a response spectrum.
 
@@ -404,7 +406,7 @@ class CaseResult:
         return stresses(self)
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@frozen(eq=False)
 class ModeSet:
     """Natural modes about a frozen contact state, in rising frequency, rigid ones first.
 
@@ -444,6 +446,49 @@ class ModeSet:
         return modes(self)
 
 
+@dataclass(frozen=True, slots=True)
+class Tried:
+    """One try for another answer: its number among the answers, or why there is none."""
+
+    what: str
+    answer: int | None
+    cause: str | None
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Spreading:
+    """Certified answers of some tries and how far they lie apart (largest less smallest).
+
+    answers : those that differ in loads; the first is the case's own where it has one.
+    supports : (n_card, 6) [N, N m].  elements : (n_elem, 2, 6) end forces [N, N m].
+    moves : (n_node, 6) [m, rad].  All None where nothing is certified.
+    """
+
+    tried: tuple[Tried, ...]
+    answers: tuple[CaseResult, ...]
+    supports: F8 | None
+    elements: F8 | None
+    moves: F8 | None
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Spread:
+    """What was found of a case beside its answer.
+
+    unique : why there can be no other answer; then nothing was tried.
+    starts : answers to the same question from other starts of the iterations.
+    orders : ends of other load orders and numbers of steps, which are other questions: friction
+        remembers its path; None where the answer is unique.
+    cause : why nothing could be tried.
+    """
+
+    case: str
+    unique: str | None
+    starts: Spreading
+    orders: Spreading | None
+    cause: str | None = None
+
+
 @dataclass(slots=True)
 class Results:
     """All cases of one run, in the deck's order."""
@@ -455,6 +500,7 @@ class Results:
     cycles: dict[str, CycleResult] = field(default_factory=dict)
     base: System | None = None  # the system whose contacts have gaps; cases may have others
     modes: ModeSet | None = None  # where the deck asks for them
+    spreads: dict[str, Spread] = field(default_factory=dict)  # where other starts were asked for
 
     def __getitem__(self, name: str) -> CaseResult:
         """Return the case called `name`."""

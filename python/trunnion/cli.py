@@ -48,13 +48,15 @@ def cli() -> None:
 
 def main(arguments: Sequence[str] | None = None) -> NoReturn:
     """Run one command and leave with its exit code."""
+    # threads of numpy's BLAS cost more to start than they ever give here, and change last digits
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(TERMINATED))
     sys.exit(_guarded(arguments))
 
 
 def _guarded(arguments: Sequence[str] | None) -> int:
     """Turn every end of a command into an exit code and a message without a traceback."""
-    from trunnion.errors import DeckError, ModelError
+    from trunnion.errors import BatchError, DeckError, ModelError
 
     try:
         code = cli.main(arguments, prog_name="trunnion", standalone_mode=False)
@@ -62,7 +64,7 @@ def _guarded(arguments: Sequence[str] | None) -> int:
     except click.ClickException as error:
         error.show()
         return BAD_INPUT
-    except (DeckError, ModelError, InputError) as error:
+    except (BatchError, DeckError, ModelError, InputError) as error:
         click.echo(str(error), err=True)
         return BAD_INPUT
     except (click.Abort, KeyboardInterrupt):

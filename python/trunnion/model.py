@@ -9,6 +9,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+from trunnion.frozen import frozen
+
 Label = str | int
 Points = Sequence[Sequence[float]]
 Value = float | str | Sequence[float] | None
@@ -18,7 +20,7 @@ SETS = tuple("123456789")
 INFINITE = float("inf")
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Place:
     """Where a record was written: deck file and line, or the call of the Python API."""
 
@@ -29,7 +31,7 @@ class Place:
         return f"{self.file}:{self.line}"
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Settings:
     """Choices that hold for the whole model (the DEFAULT card)."""
 
@@ -47,7 +49,7 @@ class Settings:
     events: bool = False
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class TablePoint:
     """Properties of a material at one temperature; None where the table is silent."""
 
@@ -56,7 +58,7 @@ class TablePoint:
     alpha: float | None = None  # mean coefficient from TREF of the table to t [1/K]
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Material:
     """Elastic constants, density and expansion; `table` is sorted by temperature."""
 
@@ -71,7 +73,7 @@ class Material:
     place: Place = field(default=Place(), compare=False)
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Section:
     """Pipe cross section with its contents and coverings; thicknesses in m, densities kg/m3."""
 
@@ -91,7 +93,7 @@ class Section:
     place: Place = field(default=Place(), compare=False)
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Operation:
     """Temperatures and pressures by set number ("1" ... "9"), carried over until changed."""
 
@@ -100,7 +102,7 @@ class Operation:
     tref: float = 20.0
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Node:
     """A node whose coordinates the user gave."""
 
@@ -109,7 +111,7 @@ class Node:
     place: Place = field(default=Place(), compare=False)
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Pipe:
     """A straight run between two labels; `rigid` is a stiff body with its own weight.
 
@@ -128,7 +130,7 @@ class Pipe:
     place: Place = field(default=Place(), compare=False)
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Bend:
     """A bend at the tangent intersection `node`; radius None: `diameters` nominal diameters."""
 
@@ -140,7 +142,7 @@ class Bend:
     place: Place = field(default=Place(), compare=False)
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Spring:
     """A two-node spring: stiffness kx ky kz [N/m], krx kry krz [N m/rad] in its own axes."""
 
@@ -151,7 +153,7 @@ class Spring:
     place: Place = field(default=Place(), compare=False)
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Mass:
     """A concentrated mass [kg] at a node."""
 
@@ -160,7 +162,7 @@ class Mass:
     place: Place = field(default=Place(), compare=False)
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Direction:
     """One direction word of a support with its keys.
 
@@ -178,7 +180,7 @@ class Direction:
     friction: str | None = None  # card-wide: CONTACT or RESULTANT
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Support:
     """One ANCHOR, SUPPORT, HANGER or one-node SPRING card.
 
@@ -200,7 +202,7 @@ class Support:
     place: Place = field(default=Place(), compare=False)
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Displacement:
     """Imposed displacement set Dn at a node; None components are not given (free).
 
@@ -214,7 +216,7 @@ class Displacement:
     place: Place = field(default=Place(), compare=False)
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Force:
     """Nodal force and moment of set Fn."""
 
@@ -224,7 +226,7 @@ class Force:
     place: Place = field(default=Place(), compare=False)
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Acceleration:
     """Uniform acceleration of set Un, in g, as a load in the direction given."""
 
@@ -233,7 +235,7 @@ class Acceleration:
     place: Place = field(default=Place(), compare=False)
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Term:
     """One load set of a case with its factor: W WNC WW H T1 P1 D1 F1 U1, or U with `vector`."""
 
@@ -242,7 +244,7 @@ class Term:
     vector: tuple[float, float, float] | None = None
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Case:
     """A load case: a sum of load sets, solved."""
 
@@ -268,7 +270,7 @@ class Case:
 Expression = tuple[object, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Comb:
     """A combination of the results of cases."""
 
@@ -278,7 +280,7 @@ class Comb:
     place: Place = field(default=Place(), compare=False)
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Cycle:
     """CYCLE: follow cases one after another, datums committed, until the loop repeats."""
 
@@ -289,7 +291,7 @@ class Cycle:
     place: Place = field(default=Place(), compare=False)
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Modes:
     """MODES: natural frequencies about the frozen contact state of a case."""
 
@@ -303,7 +305,7 @@ class Modes:
     place: Place = field(default=Place(), compare=False)
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Spectrum:
     """SPECTRUM: accelerations [m/s2] against frequency [Hz], ascending."""
 
@@ -315,7 +317,7 @@ class Spectrum:
     place: Place = field(default=Place(), compare=False)
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Shock:
     """One direction of a response spectrum case: spectrum, global direction, factor, group.
 
@@ -328,7 +330,7 @@ class Shock:
     group: str | None = None
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class SpectrumUse:
     """How a response spectrum case combines: modes, directions, groups, missing mass."""
 
@@ -343,7 +345,7 @@ class SpectrumUse:
     zpa: float | None = None  # [m/s2]; None: the spectrum at its highest frequency
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Group:
     """GROUP: supports that move together in independent support motion."""
 
@@ -352,7 +354,7 @@ class Group:
     place: Place = field(default=Place(), compare=False)
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Wind:
     """WIND set: pressure [Pa] against elevation [m], or ASCE 7-16, with attack direction.
 
@@ -374,7 +376,7 @@ class Wind:
     place: Place = field(default=Place(), compare=False)
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Snow:
     """SNOW: vertical load of snow or ice on every length of pipe [N/m], set S; cards add up."""
 
@@ -382,7 +384,7 @@ class Snow:
     place: Place = field(default=Place(), compare=False)
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Units:
     """The deck's own units, for echo and the text report; names as on the UNITS card."""
 

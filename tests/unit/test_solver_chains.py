@@ -58,8 +58,9 @@ def answer(structure, loads):
     forcing, point = structure.forcing(loads), Point.zero(structure.n_node)
     law = structure.frictionless()
     assert structure.factorise(structure.closed_tangent, 0.0 * structure.stuck_tangent)
+    bias = structure.unbiased()
     for _ in range(4):
-        r, every, end, _ = structure.exact(point, law, forcing)
+        r, every, end, _ = structure.exact(point, law, forcing, bias)
         point.move(structure.solve(r))
     return every.u + every.low, end
 

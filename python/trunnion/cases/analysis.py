@@ -1,15 +1,17 @@
 """All cases of a model, in order: `trunnion.solve(model)`."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from trunnion.arrays import F8, CaseResult, CycleResult, Loads, ModeSet, Results, System
 from trunnion.cases.casetext import case_text, in_order
 from trunnion.cases.default_cases import may_be_free, with_cases
+from trunnion.cases.session import Session, same_pipe
 from trunnion.cases.snubbed import go_on, locked_at_rest
 from trunnion.errors import ModelError
+from trunnion.frozen import frozen
 from trunnion.loads import LoadSets, case_loads, case_warnings, load_sets
 from trunnion.model import Case, Comb, Model
 from trunnion.results.combine import combine
@@ -20,25 +22,35 @@ from trunnion.solver.linear import solve_linear
 from trunnion.solver.quantities import Point
 from trunnion.solver.steps import Origin, Plan
 from trunnion.solver.structure import Structure
-from trunnion.system import build_system, hot_system
+from trunnion.system import build_system, hot_system, shares_pattern
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@frozen(eq=False)
 class Start:
     """A start of the iterations of one case, for the search of other answers.
 
-    capacity : (n_slider,) first friction capacities mu N [N].
+    capacity : (n_slider,) first friction capacities mu N [N]; None: the usual search for them.
+    u : (n_node, 6) first displacements [m, rad]; None: those of the undeformed pipe.
     """
 
-    capacity: F8
+    capacity: F8 | None = None
+    u: F8 | None = None
 
 
-def solve(model: Model, *, starts: Mapping[str, Start] | None = None) -> Results:
+def solve(
+    model: Model,
+    *,
+    starts: Mapping[str, Start] | None = None,
+    session: Session | None = None,
+    spread: int = 0,
+) -> Results:
     """Solve every case and combination of a model; one without cases takes default ones.
 
     Parameters
     ----------
     starts : other starts of the iterations by case name; the law solved is the same.
+    session : what earlier solves left; see `Session`.
+    spread : number of other starts of every case in a search for further answers; see `Spread`.
 
     Raises
     ------
@@ -49,13 +61,27 @@ def solve(model: Model, *, starts: Mapping[str, Start] | None = None) -> Results
     """
     model.check()
     try:
-        return Run(with_cases(model), starts or {}).results()
+        run = Run(with_cases(model), starts or {}, session)
+        results = run.results()
     except ModelError as error:
         free = _free_modes(model)
         if free is None:
             raise
         free.warnings += (f"no default cases: {error.problems[0].text}",)
         return free
+    if spread:
+        from trunnion.cases.spread import spreads
+
+        results.spreads = spreads(run, spread)
+        for name, found in results.spreads.items():
+            if (n := len(found.starts.answers)) > 1:
+                said = f"{n} certified answers were found from {spread} other starts"
+                results.cases[name].warnings += (said,)
+    return results
+
+
+def _own(array: F8 | None) -> F8 | None:
+    return None if array is None else np.array(array, np.float64)
 
 
 def _free_modes(model: Model) -> Results | None:
@@ -82,13 +108,29 @@ def solve_system(
 
 
 class Run:
-    """One run over a model: structures by modulus set, answers by case."""
+    """One run over a model: structures by modulus set, answers by case.
 
-    def __init__(self, model: Model, starts: Mapping[str, Start]) -> None:
-        self.model, self.starts = model, starts
-        self.ledger = Ledger()
-        self.system = build_system(model)
-        self.sets: LoadSets = load_sets(model, self.system)
+    A run that is `like` another has the same nodes, elements and supports with other numbers: it
+    shares ledger and symbolic analysis, and the elements' stiffness where that is the same.
+    """
+
+    def __init__(
+        self,
+        model: Model,
+        starts: Mapping[str, Start],
+        session: Session | None = None,
+        *,
+        like: "Run | None" = None,
+        prepared: tuple[System, LoadSets] | None = None,
+    ) -> None:
+        self.model, self.starts, self.like = model, starts, like
+        self.session = session or Session()
+        self.ledger: Ledger = Ledger() if like is None else like.ledger
+        if prepared is None:
+            self.system = build_system(model)
+            self.sets = load_sets(model, self.system)
+        else:
+            self.system, self.sets = prepared
         self.structures: dict[tuple[str, bool], Structure] = {}
         self.questions: dict[str, Question] = {}
         self.found: dict[str, CaseResult] = {}
@@ -162,7 +204,8 @@ class Run:
             steps=case.steps,
             events=settings.events if case.events is None else case.events,
             iteration=case.iteration or settings.iteration,
-            capacity=None if start is None else np.array(start.capacity, np.float64),
+            capacity=None if start is None else _own(start.capacity),
+            u=None if start is None else _own(start.u),
         )
         return Question(
             case.name,
@@ -196,8 +239,18 @@ class Run:
                 self.structures[key] = Structure(system, self.ledger, parent, keep)
             else:
                 system = hot_system(self.model, self.system, which) if which else self.system
-                self.structures[key] = Structure(system, self.ledger)
+                self.structures[key] = self._structure(system, key)
         return self.structures[key]
+
+    def _structure(self, system: System, key: tuple[str, bool]) -> Structure:
+        if self.like is None:
+            return self.session.structure(key, system, self.ledger)
+        base = self.like.structure_of(key[0])
+        if not shares_pattern(base.system, system):
+            return Structure(system, self.ledger)
+        if same_pipe(base.system, system):
+            return Structure(system, self.ledger, base)
+        return Structure(system, self.ledger, like=base)
 
     def _solve_linear(self, cases: list[Case]) -> dict[str, tuple[Point, Solved]]:
         """Where nothing can change, all cases of one modulus take one solve."""
@@ -207,8 +260,11 @@ class Run:
             if not structure.changes:
                 groups.setdefault(id(structure), []).append(case)
         prepared: dict[str, tuple[Point, Solved]] = {}
-        for group in groups.values():
-            structure = self.structure(group[0])
+        for asked in groups.values():
+            structure = self.structure(asked[0])
+            group = [c for c in asked if not self.session.recall(structure, self.question(c), None)]
+            if not group:
+                continue
             forcings = [forcing_of(structure, self.question(case)) for case in group]
             answers = solve_linear(structure, forcings)
             refuse_mechanisms(structure)
@@ -246,6 +302,22 @@ class Run:
         prepared: tuple[Point, Solved] | None = None,
     ) -> tuple[CaseResult, Origin | None]:
         """Solve one case from where another ended, or from rest."""
+        structure = self.structure(case)
+        found = self.session.recall(structure, question, origin)
+        if found is not None:
+            return found
+        found = self.ask(case, question, origin, prepared)
+        self.session.keep(structure, question, origin, found)
+        return found
+
+    def ask(
+        self,
+        case: Case,
+        question: Question,
+        origin: Origin | None,
+        prepared: tuple[Point, Solved] | None = None,
+    ) -> tuple[CaseResult, Origin | None]:
+        """Solve one case, whatever was answered before."""
         structure, locked = self.structure(case), case.snubbers == "LOCKED"
         if origin is not None:
             loads, origin = go_on(self.system, structure, origin, question.loads, locked=locked)

@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 
 from trunnion.errors import ModelError, Problem
-from trunnion.model import Case, Comb, Term
+from trunnion.model import Case, Comb, Model, Term
 from trunnion.results.combine import parents
 
 
@@ -30,6 +30,22 @@ def needs(case: Case | Comb) -> list[str]:
     if isinstance(case, Comb):
         return parents(case.expression)
     return [name for name in (case.start, case.about, case.on) if name]
+
+
+def needed(model: Model, wanted: Sequence[str]) -> list[Case | Comb]:
+    """Cases that are wanted and those that they need, in the deck's order."""
+    by_name = {case.name: case for case in model.cases}
+    found: set[str] = set()
+    todo = list(wanted)
+    while todo:
+        case = by_name.get(todo.pop())
+        if case is None or case.name in found:
+            continue
+        found.add(case.name)
+        todo += needs(case)
+        if isinstance(case, Case) and case.spectrum and model.modal and model.modal.about:
+            todo.append(model.modal.about)
+    return [case for case in model.cases if case.name in found]
 
 
 def in_order(cases: Sequence[Case | Comb]) -> list[Case | Comb]:

@@ -20,6 +20,7 @@ from trunnion.arrays import (
     sizes,
 )
 from trunnion.errors import ModelError, Problem
+from trunnion.frozen import frozen
 from trunnion.model import Case, Group, Model, Shock, SpectrumUse
 from trunnion.solver.pencil import Pencil
 from trunnion.solver.spectrum import Drive, amplitudes, combine, missed, zero_period
@@ -39,7 +40,7 @@ RESIDUAL = 1e-9  # of a mode whose forces may be reported
 ENOUGH = 0.9  # part of the mass below which a case without missing mass warns
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@frozen(eq=False)
 class Push:
     """A shock with its participation (m,) and the supports that it moves; None: all."""
 

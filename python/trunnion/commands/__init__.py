@@ -5,6 +5,8 @@ Each module has a click command of its own name, and gives the exit code back.
 
 #: name on the command line -> line of help; the module has the same name
 COMMANDS = {
+    "batch": "Solve many DECKS; skip those that are finished.",
     "check": "Read DECK, look for mechanisms and missing loads; solve and write nothing.",
     "run": "Solve DECK; write <stem>.out and <stem>.json.",
+    "study": "Solve variants of DECK on one symbolic analysis; envelope of support loads.",
 }

@@ -21,9 +21,16 @@ from trunnion.commands.shared import (
 @click.command()
 @DECK
 @FOLDER
+@click.option(
+    "--spread",
+    type=click.IntRange(0),
+    default=0,
+    metavar="N",
+    help="Look for other answers of every case from N other starts and load orders.",
+)
 @click.option("--h5", is_flag=True, help="Write <stem>.h5 too.")
 @click.option("--timings", is_flag=True, help="Print how long each part took.")
-def run(deck: Path, folder: Path, h5: bool, timings: bool) -> int:
+def run(deck: Path, folder: Path, spread: int, h5: bool, timings: bool) -> int:
     """Solve DECK; write <stem>.out and <stem>.json."""
     from trunnion.report.screen import screen
 
@@ -32,7 +39,7 @@ def run(deck: Path, folder: Path, h5: bool, timings: bool) -> int:
     start = perf_counter()
     model = read_model(deck)
     read = perf_counter()
-    results = solve_model(model)
+    results = solve_model(model, spread)
     solved = perf_counter()
     from trunnion.report import write_reports
 

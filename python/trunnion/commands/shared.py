@@ -17,6 +17,9 @@ DECK = click.argument("deck", type=click.Path(path_type=Path))
 FOLDER = click.option(
     "-o", "folder", type=click.Path(path_type=Path), default=Path(), help="Where the files go."
 )
+JOBS = click.option(
+    "-j", "jobs", type=click.IntRange(1), help="Processes at a time; one a core if not given."
+)
 
 
 class InputError(Exception):
@@ -38,11 +41,11 @@ def read_model(deck: Path) -> "Model":
     return read(deck)
 
 
-def solve_model(model: "Model") -> "Results":
-    """Solve every case."""
+def solve_model(model: "Model", spread: int = 0) -> "Results":
+    """Solve every case; with `spread` look for other answers from so many starts."""
     import trunnion
 
-    results: Results = trunnion.solve(model)
+    results: Results = trunnion.solve(model, spread=spread) if spread else trunnion.solve(model)
     return results
 
 

@@ -53,6 +53,7 @@ class Deck:
     last: int = 0  # line of the end of the main file
     bytes: int = 0
     files: int = 0
+    sources: list[str] = field(default_factory=list)  # the deck and its includes
 
 
 def read_cards(path: str | os.PathLike[str]) -> Deck:
@@ -99,6 +100,7 @@ def _text_of(path: Path, deck: Deck, place: Place, card: Card | None) -> str | N
         refuse(f"cannot read {path}: {reason}")
         return None
     deck.files += 1
+    deck.sources.append(str(path))
     deck.bytes += len(data)
     if deck.bytes > MAX_BYTES:
         refuse(f"{path}: the deck with its includes is over {MAX_BYTES // 10**6} MB")
@@ -136,7 +138,8 @@ def _gather(text: str, file: str, chain: tuple[str, ...], deck: Deck) -> None:
     """Append the cards of one file; INCLUDE cards are replaced by theirs."""
     append = deck.cards.append
     for card in _logical(text, file, deck):
-        if card.text[:7].upper() == "INCLUDE" and card.text[7:8] in (" ", ""):
+        word = card.text[:7]
+        if word[0] in "Ii" and word.upper() == "INCLUDE" and card.text[7:8] in (" ", ""):
             _include(card, chain, deck)
         else:
             append(card)

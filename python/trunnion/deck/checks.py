@@ -142,6 +142,9 @@ def _pipes(model: Model, broken: Set[str]) -> Iterator[Fault]:
         message = "no PIPE, SPRING or SUPPORT card: there is nothing to solve"
         yield Fault(Place("", 0), "", message)
     told = {"", *broken}
+    used = {(pipe.section, pipe.material) for pipe in model.pipes}
+    if all(a in model.sections and b in model.materials for a, b in used):
+        return
     for pipe in model.pipes:
         for what, name, known in (
             ("section", pipe.section, model.sections),

@@ -1,17 +1,32 @@
 """One card, or one call of the Python API, to a Record: words to values by the keyword table."""
 
 from collections.abc import Callable
-from functools import lru_cache
-from typing import Any
+from functools import lru_cache, partial
+from typing import Any, NamedTuple
 
 from trunnion.deck import units as un
 from trunnion.deck import values as va
 from trunnion.deck.keywords import KEYWORDS, PRESSURE_SETS, TEMPERATURE_SETS, Key, Positional
 from trunnion.deck.record import Mark, Record
+from trunnion.deck.units import Scale
 from trunnion.deck.values import Reader, WordError, nearest
 from trunnion.model import Direction, Units
 
 Complain = Callable[[str, Mark], None]
+
+
+class Form(NamedTuple):
+    """One keyword made ready for one UNITS card: what its words and keys are read by.
+
+    positionals : a reader for each, and the key under which it is kept if it is a number.
+    required : keys that must be there.
+    least : positionals that must be there.
+    """
+
+    positionals: tuple[tuple[Reader, str], ...]
+    readers: dict[str, Reader]
+    required: tuple[str, ...]
+    least: int
 
 
 class Fields:
@@ -27,12 +42,13 @@ class Fields:
             }
             for word in KEYWORDS.values()
         }
-        self.numbers = {  # readers of positionals that are numbers
-            word.name: {
-                p.name: va.reader_of(Key(p.name, "", p.dimension, p.kind, bounds=p.bounds), scales)
-                for p in word.positionals
-                if p.kind in ("number", "integer")
-            }
+        self.forms = {
+            word.name: Form(
+                tuple(_positional(p, scales) for p in word.positionals),
+                self.readers[word.name],
+                tuple(key.name for key in word.keys if key.required),
+                sum(not p.optional for p in word.positionals),
+            )
             for word in KEYWORDS.values()
         }
         keys = {key.name: key for key in KEYWORDS["SUPPORT"].keys}
@@ -52,9 +68,7 @@ def fields_of(units: Units) -> Fields:
     return Fields(units)
 
 
-_POSITIONALS: dict[str, tuple[Positional, ...]] = {k: w.positionals for k, w in KEYWORDS.items()}
 _FAMILIES = frozenset((*TEMPERATURE_SETS, *PRESSURE_SETS))
-_REQUIRED = {k: tuple(key.name for key in w.keys if key.required) for k, w in KEYWORDS.items()}
 
 
 def read_fields(record: Record, items: list[Any], fields: Fields, complain: Complain) -> None:
@@ -65,34 +79,42 @@ def read_fields(record: Record, items: list[Any], fields: Fields, complain: Comp
     items : words of the card after its keyword; a pair (key, value) or a positional.
     complain : takes each fault and the index of the word at fault.
     """
-    readers = fields.readers[record.keyword]
-    wanted = _POSITIONALS[record.keyword]
-    keys, args, at = record.keys, record.args, 0
+    wanted, readers, required, least = fields.forms[record.keyword]
+    keys, args, most, at = record.keys, record.args, len(wanted), 0
+    strange = False
     for i, item in enumerate(items, 1):
         if isinstance(item, tuple):
-            read_key(keys, i, item, record.keyword, readers, complain)
-        elif at < len(wanted):
-            expected, at = wanted[at], at + 1
-            number = fields.numbers[record.keyword].get(expected.name)
+            name, value = item
+            if name in readers and name not in keys:
+                try:
+                    keys[name] = readers[name](value)
+                except WordError as fault:
+                    keys[name] = None
+                    complain(_named(name, fault), i)
+            else:
+                strange = True
+                read_key(keys, i, item, record.keyword, readers, complain)
+        elif at < most:
+            reader, number = wanted[at]
+            at += 1
             try:
-                if number is None:
-                    args.append(_positional(item, expected))
-                else:
-                    keys[expected.name.upper()] = number(item)
+                found = reader(item)
             except WordError as fault:
-                if number is None:
-                    args.append(str(item).upper())
-                else:
-                    keys[expected.name.upper()] = None
+                found = None if number else str(item).upper()
                 complain(str(fault), i)
+            if number:
+                keys[number] = found
+            else:
+                args.append(found)
         else:
-            complain(_one_too_many(str(item), record.keyword, len(wanted)), i)
-    if len(keys) + len(args) < len(items):
+            strange = True
+            complain(_one_too_many(str(item), record.keyword, most), i)
+    if strange:
         return  # a misspelling is told; what is missing may be what was meant
-    missing = [p for p in wanted[at:] if not p.optional]
-    if missing:
+    if at < least:
+        missing = [p for p in KEYWORDS[record.keyword].positionals[at:] if not p.optional]
         complain(f"{' and '.join(_described(p) for p in missing)} missing", None)
-    for name in _REQUIRED[record.keyword]:
+    for name in required:
         if name not in keys:
             complain(f"{name}= is missing", None)
 
@@ -137,14 +159,17 @@ def _one_too_many(word: str, keyword: str, most: int) -> str:
     return f"word {word} is not expected; {keyword} takes {before}"
 
 
-def _positional(item: Any, wanted: Positional) -> str:
-    """Read one positional."""
-    if wanted.kind == "node":
-        return va.label(item)
-    if wanted.kind == "name":
-        return va.name(item)
-    if wanted.kind == "direction":
-        return va.direction(item)
+def _positional(wanted: Positional, scales: dict[str, Scale]) -> tuple[Reader, str]:
+    """Give the reader of one positional, and the key that keeps it if it is a number."""
+    if wanted.kind in ("number", "integer"):
+        key = Key(wanted.name, "", wanted.dimension, wanted.kind, bounds=wanted.bounds)
+        return va.reader_of(key, scales), wanted.name.upper()
+    plain: dict[str, Reader] = {"node": va.label, "name": va.name, "direction": va.direction}
+    return plain.get(wanted.kind) or partial(_one_of, wanted), ""
+
+
+def _one_of(wanted: Positional, item: Any) -> str:
+    """Read a positional that has choices."""
     found = str(item).strip().upper()
     if found not in wanted.choices:
         what = "load set" if wanted.kind == "set" else "word"

@@ -3,9 +3,9 @@
 The reader, the Python API, the writer's order of keys and the reference page come from it.
 """
 
-from dataclasses import dataclass
 from typing import NamedTuple
 
+from trunnion.frozen import frozen
 from trunnion.model import SETS
 
 
@@ -29,7 +29,7 @@ NOT_NEGATIVE = Bounds(0.0)
 FRICTION = Bounds(0.0, 2.0)
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Key:
     """One KEY=VALUE.
 
@@ -50,7 +50,7 @@ class Key:
     card_wide: bool = False
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Positional:
     """One word without "=": kind node, name, set, choice, direction, words, number or integer.
 
@@ -66,7 +66,7 @@ class Positional:
     bounds: Bounds = ANY
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Keyword:
     """One kind of card."""
 

@@ -25,13 +25,10 @@ def pipe(run: Context, record: Record) -> None:
     keys, carried = record.keys, run.carried
     start, end = record.args
     delta = _delta(run, record) if keys else None
-    if not keys.keys() <= _DELTA:  # most cards have nothing else
+    if not _DELTA.issuperset(keys):  # most cards have nothing else
         _make_current(run, record)
-    for what, name in (("section", carried.section), ("material", carried.material)):
-        if name is None:
-            word = what.upper()
-            run.miss(record, f"no {what}: write a {word} card before, or {word}=")
-            setattr(carried, what, "")  # told once
+    if carried.section is None or carried.material is None:
+        _miss_current(run, record)
     if start == end:
         run.complain(record, f"both ends are node {end}", 2)
     elif delta == (0.0, 0.0, 0.0):
@@ -52,6 +49,15 @@ def pipe(run: Context, record: Record) -> None:
     )
 
 
+def _miss_current(run: Context, record: Record) -> None:
+    """Complain once that no section or no material is current."""
+    for what in ("section", "material"):
+        if getattr(run.carried, what) is None:
+            word = what.upper()
+            run.miss(record, f"no {what}: write a {word} card before, or {word}=")
+            setattr(run.carried, what, "")
+
+
 def _make_current(run: Context, record: Record) -> None:
     """Keys SECTION, MATERIAL and those of OPERATE change what is current."""
     carried, keys = run.carried, record.keys
@@ -70,24 +76,30 @@ def _make_current(run: Context, record: Record) -> None:
 def _delta(run: Context, record: Record) -> tuple[float, float, float] | None:
     """Vector of a pipe from DX DY DZ or LENGTH and DIR; None when the card has none."""
     keys = record.keys
-    given = [key for key in ("DX", "DY", "DZ") if key in keys]
     if "LENGTH" in keys or "DIR" in keys:
-        if given:
-            run.complain(
-                record, f"{given[0]} with LENGTH and DIR: give one or the other", f"{given[0]}="
-            )
-        elif "DIR" not in keys:
-            run.complain(record, "LENGTH needs DIR=(x,y,z)", "LENGTH=")
-        elif "LENGTH" not in keys:
-            run.complain(record, "DIR needs LENGTH=", "DIR=")
-        else:
-            x, y, z = keys["DIR"]
-            scale = keys["LENGTH"] / hypot(x, y, z)
-            return x * scale, y * scale, z * scale
-        return None
-    if not given:
+        return _along(run, record)
+    if _DELTA.isdisjoint(keys):
         return None
     return keys.get("DX", 0.0), keys.get("DY", 0.0), keys.get("DZ", 0.0)
+
+
+def _along(run: Context, record: Record) -> tuple[float, float, float] | None:
+    """Vector of a pipe from LENGTH and DIR."""
+    keys = record.keys
+    given = [key for key in ("DX", "DY", "DZ") if key in keys]
+    if given:
+        run.complain(
+            record, f"{given[0]} with LENGTH and DIR: give one or the other", f"{given[0]}="
+        )
+    elif "DIR" not in keys:
+        run.complain(record, "LENGTH needs DIR=(x,y,z)", "LENGTH=")
+    elif "LENGTH" not in keys:
+        run.complain(record, "DIR needs LENGTH=", "DIR=")
+    else:
+        x, y, z = keys["DIR"]
+        scale = keys["LENGTH"] / hypot(x, y, z)
+        return x * scale, y * scale, z * scale
+    return None
 
 
 def bend(run: Context, record: Record) -> None:

@@ -3,6 +3,7 @@
 import os
 from typing import Any
 
+from trunnion.collector import paused
 from trunnion.deck import units as un
 from trunnion.deck.cards import Card, Deck, cards_of, read_cards
 from trunnion.deck.checks import check
@@ -19,6 +20,7 @@ from trunnion.errors import DeckError, Problem
 from trunnion.model import Model, Place, Units
 
 _FIRST = ("TITLE", "UNITS", "DEFAULT")
+_FORMS = {name: keyword.form for name, keyword in KEYWORDS.items()}
 _LONGEST = 400  # characters of a message; a word of a deck may be very long
 
 
@@ -29,12 +31,25 @@ def read(path: str | os.PathLike[str]) -> Model:
     ------
     DeckError : with every problem of the deck, its file and line.
     """
-    return _read(read_cards(path))
+    with paused():
+        return _read(read_cards(path))
+
+
+def read_sources(path: str | os.PathLike[str]) -> tuple[Model, tuple[str, ...]]:
+    """Read a deck; give also the files it is made of.
+
+    Raises
+    ------
+    DeckError : as `read`.
+    """
+    deck = read_cards(path)
+    return _read(deck), tuple(deck.sources)
 
 
 def read_text(text: str, file: str = "<text>") -> Model:
     """Read a deck given as text; `file` stands in the errors."""
-    return _read(cards_of(text, file))
+    with paused():
+        return _read(cards_of(text, file))
 
 
 def _read(deck: Deck) -> Model:
@@ -53,6 +68,7 @@ class _Reading:
         self.deck = deck
         self.model = Model()
         self.faults: list[Fault] = []
+        self.heard: list[tuple[str, Mark]] = []  # of the present card
         self.carried = Carried()
         self.context = Context(self.model, self.carried, self.faults, not deck.refusals)
 
@@ -62,9 +78,10 @@ class _Reading:
         words = [card.text.split(None, 1)[0].upper() for card in cards]
         self._units(words)
         fields = fields_of(self.model.units)
-        for card, word in zip(cards, words, strict=True):
-            if word == "DEFAULT":
-                self._card(card, word, fields)
+        if "DEFAULT" in words:
+            for card, word in zip(cards, words, strict=True):
+                if word == "DEFAULT":
+                    self._card(card, word, fields)
         for card, word in zip(cards, words, strict=True):
             if word not in _FIRST:
                 self._card(card, word, fields)
@@ -116,30 +133,29 @@ class _Reading:
 
     def _card(self, card: Card, word: str, fields: Fields) -> None:
         """Read one card and apply it."""
-        known = KEYWORDS.get(word)
-        if known is None:
+        form = _FORMS.get(word)
+        if form is None:
             self._unknown(card, word)
             return
         record = Record(word, Place(card.file, card.line))
-        heard: list[tuple[str, Mark]] = []
-
-        def complain(message: str, mark: Mark) -> None:
-            heard.append((message, mark))
-
-        before = len(self.faults)
-        if known.form in ("equation", "list"):
+        if form in ("equation", "list"):
             rest = card.text[len(word) :].lstrip()
-            read_equation(record, rest, len(card.text) - len(rest), fields, complain)
-        elif known.form == "directions":
-            read_directions(record, _items(card.text), fields, complain)
+            read_equation(record, rest, len(card.text) - len(rest), fields, self._hear)
+        elif form == "directions":
+            read_directions(record, _items(card.text), fields, self._hear)
         else:
-            read_fields(record, _items(card.text), fields, complain)
-        if heard:
-            self.faults += [Fault(record.place, record.head, *said) for said in heard]
-        else:
+            read_fields(record, _items(card.text), fields, self._hear)
+        if not self.heard:
             apply(self.context, record)
-        if len(self.faults) > before:
-            self.context.give_up(record)
+            if len(self.faults) == self.context.before:
+                return
+        self.faults += [Fault(record.place, record.head, *said) for said in self.heard]
+        self.heard.clear()
+        self.context.give_up(record)
+
+    def _hear(self, message: str, mark: Mark) -> None:
+        """Take note of a fault of the card that is being read."""
+        self.heard.append((message, mark))
 
     def _unknown(self, card: Card, word: str) -> None:
         """Refuse a card that no keyword fits, and its words elsewhere with it."""

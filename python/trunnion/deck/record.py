@@ -3,6 +3,7 @@
 from dataclasses import dataclass, field
 from typing import Any
 
+from trunnion.frozen import frozen
 from trunnion.model import Direction, Place
 
 
@@ -36,7 +37,7 @@ class Record:
 Mark = int | str | tuple[int, int] | None
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Fault:
     """One fault before its place on the card is looked up."""
 

@@ -2,7 +2,6 @@
 
 import re
 from collections.abc import Callable, Collection
-from difflib import get_close_matches
 from functools import lru_cache
 from typing import Any
 
@@ -22,6 +21,8 @@ class WordError(ValueError):
 
 def nearest(word: str, words: Collection[str]) -> str:
     """Hint at the valid word nearest to `word`: "; nearest: GAP", or nothing."""
+    from difflib import get_close_matches
+
     if len(words) > 20000:  # a search would take longer than reading the deck
         words = {w for w in words if w[:2] == word[:2] and abs(len(w) - len(word)) < 3}
     found = get_close_matches(word, words, n=1, cutoff=0.5)
@@ -95,7 +96,8 @@ def gap(value: object, scale: Scale, dimension: str) -> tuple[float, float]:
 def label(value: str) -> str:
     """Node label: letters, digits, "_" and ".", upper case."""
     text = value.strip().upper()
-    if _LABEL.fullmatch(text) is None:
+    plain = text.isdigit() and text.isascii() and len(text) <= 32  # most labels are numbers
+    if not plain and _LABEL.fullmatch(text) is None:
         raise WordError(f"{value} is no node label (letters, digits, _ and . , up to 32)")
     return text
 

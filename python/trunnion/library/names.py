@@ -1,7 +1,6 @@
 """Names that a user may misspell: the error that knows the nearest valid ones."""
 
 from collections.abc import Iterable
-from difflib import get_close_matches
 
 
 class UnknownName(KeyError):  # noqa: N818 (what happened, not a failure of the program)
@@ -15,6 +14,8 @@ class UnknownName(KeyError):  # noqa: N818 (what happened, not a failure of the 
     """
 
     def __init__(self, what: str, name: str, known: Iterable[str]) -> None:
+        from difflib import get_close_matches
+
         super().__init__(name)
         self.what = what
         self.name = name

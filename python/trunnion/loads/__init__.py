@@ -1,12 +1,13 @@
 """Load cases as arrays: weight, temperature, pressure, movements, forces, occasional loads."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 
 import numpy as np
 
 from trunnion.arrays import F8, Loads, System
 from trunnion.errors import Problem
+from trunnion.frozen import frozen
 from trunnion.loads.movements import bases, idle, node_numbers
 from trunnion.loads.strains import pressure_effects, pressures, strains
 from trunnion.loads.weights import line_weights
@@ -15,7 +16,7 @@ from trunnion.model import Case, Model, Term
 from trunnion.system.checks import refuse
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@frozen(eq=False)
 class LoadSets:
     """Every load set of a model with factor 1, on its numbered system.
 

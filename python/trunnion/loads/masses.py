@@ -1,17 +1,18 @@
 """Mass of a model for natural modes: along its pipes, of their sections, concentrated."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import pi
 
 import numpy as np
 
 from trunnion.arrays import F8, I4, System
+from trunnion.frozen import frozen
 from trunnion.loads.movements import node_numbers
 from trunnion.loads.weights import line_weights
 from trunnion.model import Material, Model, Pipe, Section
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@frozen(eq=False)
 class Masses:
     """What moves.
 

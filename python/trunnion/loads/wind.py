@@ -17,13 +17,13 @@ where along a long riser the load is heaviest, a node in between gives.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from trunnion.arrays import ARC, F8, STRAIGHT, System
 from trunnion.errors import Problem
+from trunnion.frozen import frozen
 from trunnion.loads.asce7 import (
     GRADIENT,
     SMALL_SHAPE,
@@ -42,7 +42,7 @@ _LEVEL = 1e-4  # rise of an element [m] below which its middle stands for its me
 _PANELS, _POINTS = 4, 8  # of the integration along an arc
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@frozen(eq=False)
 class WindLoad:
     """One wind set on the elements of a system; all zero where it does not act.
 

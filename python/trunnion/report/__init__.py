@@ -12,6 +12,15 @@ def write_reports(
     results: Results, model: Model, folder: Path, stem: str, *, h5: bool = False
 ) -> list[Path]:
     """Write <stem>.out, <stem>.json and on demand <stem>.h5, all of them or none."""
+    files = report_files(results, model, folder, stem, h5=h5)
+    write_files(files)
+    return list(files)
+
+
+def report_files(
+    results: Results, model: Model, folder: Path, stem: str, *, h5: bool = False
+) -> dict[Path, bytes]:
+    """Give the reports by their places, without writing them."""
     from trunnion.report.json import json_report
     from trunnion.report.text import text_report
 
@@ -29,5 +38,4 @@ def write_reports(
     finally:
         if collects:
             gc.enable()
-    write_files(files)
-    return list(files)
+    return files

@@ -2,20 +2,20 @@
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
 from itertools import chain
 from math import floor, log10
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from trunnion.frozen import frozen
 from trunnion.report.units import Quantity
 
 PAGE = 132
 Words = Sequence[str | None]
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Column:
     """One column ready to print: two lines of heading, a % form, the cells."""
 

@@ -13,6 +13,7 @@ from trunnion.model import Model
 from trunnion.report.encode import dump, finite, lines, listing, records, rows, short, words
 from trunnion.report.json_modes import mode_entries
 from trunnion.report.json_runs import cycle_entries, envelope_entries, frozen_entries
+from trunnion.report.json_spread import spread_entries
 from trunnion.report.json_supports import support_entries
 from trunnion.report.json_winds import wind_entries
 from trunnion.results.balance import load_sum, local_end_forces, reaction_sum
@@ -37,6 +38,8 @@ def json_report(results: Results, model: Model | None = None) -> bytes:
     }
     if results.cycles:
         parts["cycles"] = cycle_entries(results)
+    if results.spreads:
+        parts["spread"] = spread_entries(results)
     if model is not None and model.winds:
         parts["winds"] = wind_entries(model, results.system)
     parts["modes"] = dump({"frequency_hz": []})

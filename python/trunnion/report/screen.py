@@ -5,6 +5,7 @@ from trunnion.model import Model
 from trunnion.report.frozen import frozen_warning
 from trunnion.report.loops import cycle_lines, cycle_warnings
 from trunnion.report.modes import mode_lines, mode_warnings
+from trunnion.report.spread import spread_lines
 from trunnion.report.summary import summary_table
 from trunnion.report.units import report_units
 from trunnion.results.supports import cause_of, is_good
@@ -21,7 +22,7 @@ def screen(results: Results, model: Model) -> tuple[bool, str]:
     lines.append(summary_table(results, units, only=shown).rstrip("\n"))
     if len(cases) > len(shown):
         lines.append(f"  ... and {len(cases) - len(shown)} more cases in the report")
-    lines += mode_lines(results) + cycle_lines(results)
+    lines += mode_lines(results) + cycle_lines(results) + spread_lines(results, units)
     lines += _some([f"{name}: {cause_of(cases[name])}" for name in bad], CAUSES)
     warnings = list(results.warnings)
     warnings += [f"{c.name}: {text}" for c in cases.values() for text in c.warnings]

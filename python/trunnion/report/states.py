@@ -1,10 +1,9 @@
 """What every support does in one case: state, normal force, friction, slide, gap used."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from trunnion.arrays import BOTH, F8, I4, MINUS, OPEN, PLUS, CaseResult, Contacts
+from trunnion.frozen import frozen
 from trunnion.report.answers import largest
 from trunnion.report.columns import numbers, plain, section, table, words
 from trunnion.report.units import ReportUnits
@@ -19,7 +18,7 @@ NOTE = (
 TOGETHER = "  ALL: friction of all words of the card together (FRICTION=RESULTANT)\n"
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@frozen(eq=False)
 class _Rows:
     """Rows of the table: contacts, sliders that rub on several of them, free snubbers.
 

@@ -1,10 +1,10 @@
 """Units of the text report: the deck's own, with mm and degrees for movements."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from math import floor, isfinite, log10, pi
 
 from trunnion.deck.units import derived, scale_of, to_celsius
+from trunnion.frozen import frozen
 from trunnion.model import Units
 
 DIGITS = 5  # significant digits that the largest number of a kind shows at least
@@ -17,7 +17,7 @@ _DECIMALS = {
 }  # fmt: skip
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Quantity:
     """One kind of number in the report: value in SI times `factor`, with `decimals`."""
 
@@ -38,7 +38,7 @@ class Quantity:
         return f"{value * self.factor:{width}.{self.decimals}f}"
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class ReportUnits:
     """Every kind of number that the report prints."""
 

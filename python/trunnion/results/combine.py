@@ -7,7 +7,7 @@ what they share are nodes, elements and support cards.
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, fields, replace
+from dataclasses import fields, replace
 from typing import Any
 
 import numpy as np
@@ -26,6 +26,7 @@ from trunnion.arrays import (
     no_sliders,
 )
 from trunnion.certificate.deformation import two_difference
+from trunnion.frozen import frozen
 from trunnion.model import Comb, Expression
 from trunnion.results.balance import local_end_forces, section_forces
 from trunnion.results.supports import gathered
@@ -35,7 +36,7 @@ _CARDS = ("card_force", "card_normal", "card_friction")
 _LINEAR = frozenset(("case", "+", "-", "*", "neg", "scalar"))
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@frozen(eq=False)
 class Numbers:
     """All numbers of one result in a row, as unevaluated sums high + low."""
 

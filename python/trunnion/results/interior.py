@@ -4,17 +4,16 @@ The part of an element before a point is an element itself, a cantilever from en
 give the force on its section; so a point is as exact as a node, on straights and on arcs.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
 from trunnion.arrays import ARC, F8, I4, SPRING, STRAIGHT, CaseResult, Loads, System
+from trunnion.frozen import frozen
 
 Index = NDArray[np.integer]
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@frozen(eq=False)
 class Points:
     """Answers at points along elements.
 
@@ -155,7 +154,7 @@ def stations(case: CaseResult, per_span: int) -> Points:
     return points(case, np.repeat(pipes, per_span + 1), np.tile(fraction, len(pipes)))
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@frozen(eq=False)
 class Extremes:
     """Largest deflection of straight elements across their axis, from the chord of their ends.
 

@@ -11,17 +11,16 @@ fibres of bending with torsion, and the neutral axis with torsion and direct she
 inner wall (radial stress -p) and on the outer; the largest of the six points is given.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
 from trunnion.arrays import F8, SPRING, CaseResult, System
+from trunnion.frozen import frozen
 from trunnion.results.balance import section_forces
 from trunnion.results.interior import mid_points
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@frozen(eq=False)
 class Stresses:
     """Stresses [Pa] at n sections; bending, shear and torsion are sizes.
 

@@ -1,7 +1,6 @@
 """What each support card carries: the contacts and sliders of a case, gathered by card."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +19,7 @@ from trunnion.arrays import (
     State,
     System,
 )
+from trunnion.frozen import frozen
 
 STATES = ("open", "engaged", "stick", "slip", "free", "locked")
 FREE, LOCKED = 4, 5  # of snubbers
@@ -168,7 +168,7 @@ def without_sign(case: CaseResult) -> B1:
     return alike
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@frozen(eq=False)
 class Envelope:
     """Extremes over cases, each (n_card, 6), on the pipe; the cases as numbers.
 
@@ -184,12 +184,21 @@ class Envelope:
 def envelope(cases: Sequence[CaseResult]) -> Envelope:
     """Find the largest and the smallest of each component of every support's load."""
     force, sizes = np.stack([card_forces(c) for c in cases]), [without_sign(c) for c in cases]
-    both = np.stack(sizes)
+    return extremes(force, np.stack(sizes))
+
+
+def extremes(force: F8, both: B1, alike: float = 0.0) -> Envelope:
+    """Extremes over the first index of (n, n_card, 6); `both` tells what acts both ways.
+
+    Where several come within `alike` of the size of the extreme, the first of them is named.
+    """
     size = np.abs(force).max(axis=0)
     halves = [size[:, :3].max(initial=0.0), size[:, 3:].max(initial=0.0)]
     nothing = size <= 1e-9 * np.repeat(halves, 3)
     upper, lower = np.where(both, np.abs(force), force), np.where(both, -np.abs(force), force)
-    high, low = upper.argmax(axis=0), lower.argmin(axis=0)
+    near = alike * size
+    high = (upper >= upper.max(axis=0) - near).argmax(axis=0)
+    low = (lower <= lower.min(axis=0) + near).argmax(axis=0)
     return Envelope(
         np.take_along_axis(upper, high[None], axis=0)[0],
         np.take_along_axis(lower, low[None], axis=0)[0],

@@ -6,11 +6,12 @@ results["OPE"].elements.column("axial_from")
 """
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import fields
 
 import numpy as np
 
 from trunnion.arrays import F8, Card, CaseResult, CycleResult, ModeSet, Part, Results, System
+from trunnion.frozen import frozen
 from trunnion.library.names import UnknownName
 from trunnion.results.balance import local_end_forces
 from trunnion.results.interior import mid_of_bend
@@ -32,7 +33,7 @@ Words = Mapping[str, Sequence[str | None]]
 FORCES = ("fx", "fy", "fz", "mx", "my", "mz")
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@frozen(eq=False)
 class Table:
     """Rows with labels, numbers in SI and some columns of words.
 

@@ -28,7 +28,7 @@ class Chains:
     far : (n_elem,) node at a member's far end.
     base : (n_chain,) node at a chain's base.
     ends : (n_chain, 2) base and tip, numbers among the kept nodes.
-    f : (n_elem, 6, 6) tip flexibilities of elements that are not alone.
+    f : (n_elem, 6, 6) tip flexibilities of the elements that may join.
     """
 
     kept: I4
@@ -68,26 +68,20 @@ def find_chains(system: System) -> Chains:
     lead = element[start]
     base = np.where(flip[start] == 1, ends[lead, 1], ends[lead, 0])
     joined = np.ascontiguousarray(np.column_stack((place[base], place[far[last]])))
-    f = _flexibilities(system, element, np.repeat(np.diff(first) > 1, np.diff(first)))
+    f = _flexibilities(system, joins)
     return Chains(kept, place, first, element, flip, far, base, joined, f)
 
 
-def _flexibilities(system: System, element: I4, together: B1) -> F8:
-    """Tip flexibility of the elements that share a chain with others; zero of the rest."""
-    f = np.zeros((len(element), 6, 6))
-    at = np.sort(element[together])
-    if not len(at):
-        return f
-    whole, s = len(at) == len(element), system
-    kind = s.kind if whole else s.kind[at]
-    length, radius, angle, rigidity, flex = (
-        a if whole else np.ascontiguousarray(a[at])
-        for a in (s.length, s.radius, s.angle, s.rigidity, s.flex)
-    )
-    of = kernels.tip_flexibility(kind, length, radius, angle, rigidity, flex)
-    if whole:
-        return of
-    f[at] = of
+def _flexibilities(s: System, joins: B1) -> F8:
+    """Tip flexibility of the elements that may join; zero of the rest."""
+    if joins.all():
+        return kernels.tip_flexibility(s.kind, s.length, s.radius, s.angle, s.rigidity, s.flex)
+    at, f = np.flatnonzero(joins), np.zeros((len(joins), 6, 6))
+    if len(at):
+        length, radius, angle, rigidity, flex = (
+            np.ascontiguousarray(a[at]) for a in (s.length, s.radius, s.angle, s.rigidity, s.flex)
+        )
+        f[at] = kernels.tip_flexibility(s.kind[at], length, radius, angle, rigidity, flex)
     return f
 
 

@@ -25,6 +25,10 @@ class Ledger:
         for name, n in more.items():
             self.count[name] = self.count.get(name, 0) + n
 
+    def begin(self, owner: object, work: SpdWork) -> None:
+        """Do not count what a factor has done before this ledger was opened."""
+        self._seen[id(owner)] = work
+
     def follow(self, owner: object, work: SpdWork) -> None:
         """Take over what the factor of `owner` has done since last time."""
         seen = self._seen.get(id(owner), SpdWork(0, 0, 0, 0))

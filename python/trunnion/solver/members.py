@@ -13,6 +13,8 @@ from trunnion.arrays import ARC, F8, I4, SPRING, Loads, System
 from trunnion.solver.chains import Chains, find_chains
 from trunnion.solver.quantities import Forcing, Inside, Point
 
+SWEEPS = 6  # through a chain, until it closes
+
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Members:
@@ -104,11 +106,22 @@ def member_loads(members: Members, system: System, loads: Loads) -> tuple[F8, F8
 
 
 def end_forces(
-    members: Members, system: System, forcing: Forcing, point: Point, r: F8
+    members: Members,
+    system: System,
+    forcing: Forcing,
+    point: Point,
+    r: F8,
+    bias: F8,
+    most: int = SWEEPS,
 ) -> tuple[Point, F8]:
     """Displacements of all nodes and (n_elem, 2, 6) end forces, the latter taken off `r`.
 
     The law of a chain holds to the last digits here, however its stiffness was rounded.
+
+    Parameters
+    ----------
+    bias : (n_member, 6) what rounding takes off the tip forces; kept from call to call.
+    most : sweeps through a chain.
     """
     c = members.chains
     if c is None:
@@ -134,6 +147,8 @@ def end_forces(
         forcing.free,
         forcing.resultant,
         inside.nodal,
+        most,
+        bias,
         whole.u,
         whole.low,
         r,

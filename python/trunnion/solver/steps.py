@@ -27,6 +27,7 @@ class Plan:
     events: bool = False
     iteration: str = "NEWTON"
     capacity: F8 | None = None  # start of the capacities of the first step
+    u: F8 | None = None  # (n_node, 6) of the model: start of the displacements, not of the datum
     ramp: bool = True  # whether ramping and freezing may be tried
 
 
@@ -53,6 +54,8 @@ def solve_case(
     solve = solve_status if plan.iteration == "STATUS" else solve_step
     capacity = plan.capacity
     start, point = origin.forcing, origin.point.copy()
+    if plan.u is not None:
+        point = Point(plan.u[structure.kept], np.zeros_like(point.low))
     solved = None
     for i in range(plan.steps):
         target = origin.forcing.toward(forcing, (i + 1) / plan.steps)

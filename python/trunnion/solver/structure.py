@@ -17,7 +17,7 @@ from trunnion.solver.members import (
     member_loads,
     whole_members,
 )
-from trunnion.solver.pattern import build_pattern
+from trunnion.solver.pattern import Pattern, build_pattern
 from trunnion.solver.quantities import Forcing, Inside, Point, Response, Sliding
 
 
@@ -40,6 +40,9 @@ class Structure:
     A structure with a `parent` is the same pipe on other supports (frozen contacts, locked
     snubbers): it shares the parent's members, pattern, symbolic analysis and factor.  `keep`
     numbers its contacts among the contacts and then the snubbers of the parent's system.
+
+    One that is `like` another has the same nodes, joined in the same way, with other numbers: it
+    shares pattern and symbolic analysis.
     """
 
     def __init__(
@@ -50,13 +53,14 @@ class Structure:
         keep: I4 | None = None,
         *,
         whole: bool = False,
+        like: "Structure | None" = None,
     ) -> None:
         self.system, self.ledger = system, ledger
         self.shifted = self.checked = False  # a singular tangent was met; it was looked into
-        self.keep, self.parent = keep, parent
+        self.keep, self.parent, self.like = keep, parent, like
         if parent is None:
             self.members = whole_members(system) if whole else chain_members(system)
-            self.box = Box()
+            self.box: Box = Box() if like is None else like.box
         else:
             self.members, self.box = parent.members, parent.box
         chains = self.members.chains
@@ -66,8 +70,8 @@ class Structure:
             contacts, sliders, snubbers = at_kept_nodes(system, chains)
         self.contacts, self.sliders = contacts_of(contacts), sliders_of(sliders)
         if parent is None:
-            ends = self.members.ends
-            self.pattern = build_pattern(self.n_node, ends, self.contacts, self.sliders, snubbers)
+            joined = self.members.ends, self.contacts, self.sliders, snubbers
+            self.pattern: Pattern = like.pattern if like else build_pattern(self.n_node, *joined)
             self.pipe = self._assemble()
         else:
             self.pattern, self.pipe = parent.pattern, parent.pipe
@@ -84,13 +88,21 @@ class Structure:
         self.ledger.add(elements=m.elements, assemble=1)
         return pipe
 
+    def turn_to(self, system: System, ledger: Ledger) -> None:
+        """Serve a system with the same numbers, and count work in another ledger from now on."""
+        self.system, self.ledger = system, ledger
+        self.__dict__.pop("full", None)
+        if self.box.spd is not None:
+            ledger.begin(self.box, self.box.spd.work)
+
     @cached_property
     def full(self) -> "Structure":
         """The structure with every node and element: for modes, and to name motions."""
         if self.members.chains is None:
             return self
         if self.parent is None:
-            return Structure(self.system, self.ledger, whole=True)
+            like = None if self.like is None else self.like.full
+            return Structure(self.system, self.ledger, whole=True, like=like)
         return Structure(self.system, self.ledger, self.parent.full, self.keep)
 
     @cached_property
@@ -107,7 +119,8 @@ class Structure:
     def _supports(self) -> None:
         c, s = self.contacts, self.sliders
         p = self.pattern
-        self.rank = rank = p.contact_rank if self.keep is None else self._kept_rank()
+        rank = p.contact_rank if self.keep is None else self._kept_rank()
+        self.rank: I4 = rank
         offset = np.where(c.rotational, 3, 0)
         at = np.column_stack((c.node, c.cnode, rank, offset, c.dim, c.two_way))
         self.at = np.ascontiguousarray(at, np.int32)
@@ -247,19 +260,27 @@ class Structure:
         return r, end, response
 
     def exact(
-        self, point: Point, sliding: Sliding, forcing: Forcing
+        self, point: Point, sliding: Sliding, forcing: Forcing, bias: F8
     ) -> tuple[F8, Point, F8, Response]:
-        """Like `residual`, with every element; also the displacements of all nodes."""
+        """Like `residual`, with every element; also the displacements of all nodes.
+
+        `bias` (n_member, 6), zero at first, keeps what makes the next call shorter.
+        """
         r = forcing.nodal.copy()
         response = self.respond(point, sliding, forcing, r)
-        every, end = end_forces(self.members, self.system, forcing, point, r)
+        every, end = end_forces(self.members, self.system, forcing, point, r, bias)
         self.ledger.add(elements=self.members.elements)
         return r, every, end, response
 
+    def unbiased(self) -> F8:
+        """Start of the `bias` of `exact`."""
+        return np.zeros((len(self.members.ends), 6))
+
     def expand(self, v: F8) -> F8:
         """Displacements of all nodes for those of the equations, without loads (n_node, 6)."""
-        point = Point(v, np.zeros_like(v))
-        every, _ = end_forces(self.members, self.system, self.still, point, np.zeros_like(v))
+        point, bias = Point(v, np.zeros_like(v)), self.unbiased()
+        r = np.zeros_like(v)
+        every, _ = end_forces(self.members, self.system, self.still, point, r, bias, most=1)
         return every.u
 
     def search(
@@ -300,8 +321,8 @@ class Structure:
         ):
             return True
         box = self.box
-        if box.spd is None:
-            box.spd = kernels.SpdFactor(self.pattern.colptr, self.pattern.row)
+        self.analyse()
+        assert box.spd is not None
         val = self.val
         if self.changes:
             val = val.copy()
@@ -317,6 +338,12 @@ class Structure:
             self.ledger.follow(box, box.spd.work)
         box.owner, box.held = self, (tangent, slider_tangent, shift)
         return True
+
+    def analyse(self) -> None:
+        """Make the symbolic analysis, unless there is one."""
+        if self.box.spd is None:
+            self.box.spd = kernels.SpdFactor(self.pattern.colptr, self.pattern.row)
+            self.ledger.follow(self.box, self.box.spd.work)
 
     def solve(self, r: F8) -> F8:
         """Displacements (n_node, 6) of the factored stiffness under r; or (m, n_node, 6)."""

@@ -38,7 +38,8 @@ def report_numbers(
     law = replace(sliding, capacity=sliding.capacity.copy(), coupled=True)
     structure.ledger.refining = True
     try:
-        r, every, end, response = structure.exact(point, law, forcing)
+        bias = structure.unbiased()
+        r, every, end, response = structure.exact(point, law, forcing, bias)
         best = (np.inf, np.inf)
         shift = 0.0
         for i in range(REFINEMENTS):
@@ -46,7 +47,7 @@ def report_numbers(
             p = coupled_step(structure, response, law, r)
             trial = point.copy()
             trial.move(p)
-            after = structure.exact(trial, law, forcing)
+            after = structure.exact(trial, law, forcing, bias)
             left = corrections(structure, p, point, response, after[3])
             # a reaction is a difference of displacements: it may lag behind them by one pass
             better = any(new < old for new, old in zip(left, best, strict=True))

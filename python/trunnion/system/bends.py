@@ -4,10 +4,10 @@ The arc runs from the near point (30N) over the middle (30M) to the far point (3
 deck's direction.  The node's own label means the far point.
 """
 
-from dataclasses import dataclass
 from math import atan2, cos, sin, tan
 
 from trunnion.errors import Problem
+from trunnion.frozen import frozen
 from trunnion.model import Bend, Material, Model, Pipe, Section, Settings
 from trunnion.system.vectors import Vec, add, cross, dot, scale, size, sub, unit
 
@@ -23,7 +23,7 @@ _NOMINAL = (
 )  # fmt: skip
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Legs:
     """The two pipes (numbers in Model.pipes) that a bend joins, in the order of the path."""
 
@@ -32,7 +32,7 @@ class Legs:
     far: int
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Corner:
     """One placed bend.
 
@@ -64,7 +64,7 @@ def nominal_diameter(od: float) -> float:
 def find_legs(model: Model, problems: list[Problem]) -> dict[str, Legs]:
     """Give each bend its near and its far pipe."""
     at: dict[str, list[int]] = {bend.node: [] for bend in model.bends}
-    for i, pipe in enumerate(model.pipes):
+    for i, pipe in enumerate(model.pipes) if at else ():
         for label in (pipe.start, pipe.end):
             if label in at:
                 at[label].append(i)

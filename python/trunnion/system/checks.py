@@ -3,7 +3,7 @@
 from math import inf, isfinite
 
 from trunnion.errors import ModelError, Problem
-from trunnion.model import Direction, Material, Model, Place, Section
+from trunnion.model import Material, Model, Place, Section
 from trunnion.system.bends import pipe_name
 from trunnion.system.vectors import size
 
@@ -49,7 +49,8 @@ def known_labels(model: Model) -> set[str]:
     What only CNODE= of a known node names is known if a support or an imposed displacement
     stands there.  A model without pipes and springs starts at its first support.
     """
-    known = {x for p in model.pipes for x in (p.start, p.end)}
+    known = {pipe.start for pipe in model.pipes}
+    known.update(pipe.end for pipe in model.pipes)
     known |= {x for s in model.springs for x in (s.start, s.end)}
     known |= {node.label for node in model.nodes}
     known |= {bend.node + point for bend in model.bends for point in "NMF"}
@@ -109,13 +110,14 @@ def _section(s: Section) -> list[str]:
 
 
 def _pipes(model: Model, problems: list[Problem]) -> None:
+    sections, materials = model.sections, model.materials
     for pipe in model.pipes:
         bad: list[str] = []
         if pipe.start == pipe.end:
             bad.append("starts and ends at the same node")
-        if pipe.section not in model.sections:
+        if pipe.section not in sections:
             bad.append(f"section {pipe.section!r} is not defined")
-        if pipe.material not in model.materials:
+        if pipe.material not in materials:
             bad.append(f"material {pipe.material!r} is not defined")
         if pipe.delta is not None and not 0.0 < size(pipe.delta) < inf:
             bad.append("has no length")
@@ -149,19 +151,20 @@ def _springs_and_masses(model: Model, problems: list[Problem]) -> None:
 
 
 def _supports(model: Model, problems: list[Problem]) -> None:
-    fine: set[Direction] = set()  # most supports of a large model say the same
+    fine: set[int] = set()  # identities: most supports of a large model share theirs
     for s in model.supports:
         bad: list[str] = []
         if s.cnode == s.node:
             bad.append("CNODE is the node itself")
-        if any(k is not None and not 0.0 <= k < inf for k in (s.k, s.kr, *(s.ks or ()))):
+        own = (s.k, s.kr) if s.ks is None else (s.k, s.kr, *s.ks)
+        if own != (None, None) and any(k is not None and not 0.0 <= k < inf for k in own):
             bad.append("a stiffness is negative")
         if s.axis is not None and not 0.0 < size(s.axis) < inf:
             bad.append("AXIS has no direction")
         if s.kind == "support" and not s.directions:
             bad.append("no direction is given")
         for d in s.directions:
-            if d in fine:
+            if id(d) in fine:
                 continue
             found = len(bad)
             if not all(g >= 0.0 for g in d.gap):
@@ -173,5 +176,5 @@ def _supports(model: Model, problems: list[Problem]) -> None:
             if d.vector is not None and not 0.0 < size(d.vector) < inf:
                 bad.append(f"{d.word}: is no direction")
             if len(bad) == found:
-                fine.add(d)
+                fine.add(id(d))
         problems += [Problem(s.place, f"{s.kind.upper()} {s.node}: {text}") for text in bad]

@@ -8,6 +8,7 @@ import numpy as np
 
 from trunnion.arrays import Card, Contacts, Part, Sliders
 from trunnion.errors import Problem
+from trunnion.frozen import frozen
 from trunnion.model import Direction, Model, Settings, Support
 from trunnion.system.checks import refuse
 from trunnion.system.elements import Elements
@@ -20,9 +21,11 @@ ZERO: Vec = (0.0, 0.0, 0.0)
 
 
 class Row(NamedTuple):
-    """One contact, fields as in arrays.Contacts; mu and kf (0: none) belong to its friction."""
+    """One contact, fields as in arrays.Contacts; mu and kf (0: none) belong to its friction.
 
-    card: int
+    It does not say where it stands: supports that say the same share their rows.
+    """
+
     rotational: bool
     normals: tuple[Vec, ...]
     gap: tuple[float, float]
@@ -43,7 +46,7 @@ class Slide(NamedTuple):
     contacts: list[int]
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Supports:
     """What stands on the nodes, in the deck's order."""
 
@@ -54,15 +57,27 @@ class Supports:
 
 
 @dataclass(slots=True)
+class _Rows:
+    """Contacts in order: what they are, and the card of each."""
+
+    rows: list[Row] = field(default_factory=list)
+    card: list[int] = field(default_factory=list)
+
+    def add(self, rows: list[Row], card: int) -> None:
+        self.rows += rows
+        self.card += [card] * len(rows)
+
+
+@dataclass(slots=True)
 class _Lists:
     node: list[int] = field(default_factory=list)  # of each card
     cnode: list[int] = field(default_factory=list)
     cards: list[Card] = field(default_factory=list)
-    rows: list[Row] = field(default_factory=list)
-    snubbers: list[Row] = field(default_factory=list)
+    contacts: _Rows = field(default_factory=_Rows)
+    snubbers: _Rows = field(default_factory=_Rows)
     slides: list[Slide] = field(default_factory=list)
     planes: dict[tuple[Vec, ...], list[Vec]] = field(default_factory=dict)
-    words: dict[Direction, Row] = field(default_factory=dict)
+    words: dict[int, Row] = field(default_factory=dict)  # by identity of a Direction
 
     def card(self, card: Card, node: int, cnode: int) -> int:
         self.cards.append(card)
@@ -92,21 +107,21 @@ def build_contacts(
             cnode,
         )
         if s.kind == "snubber":
-            lists.snubbers += _snubber(s, card, model.settings)
+            lists.snubbers.add(_snubber(s, model.settings), card)
         elif s.kind == "support":
             try:
-                rows = _support(s, card, along, lists, model.settings)
+                rows = _support(s, along, lists.words, model.settings)
             except ValueError as error:
                 problems.append(Problem(s.place, f"SUPPORT {s.node}: {error}"))
                 continue
-            _add_slides(s, rows, model.settings, lists)
-            lists.rows += rows
+            _add_slides(s, card, rows, model.settings, lists)
+            lists.contacts.add(rows, card)
         else:
-            lists.rows += _fixed(s, card, model.settings, up)
+            lists.contacts.add(_fixed(s, model.settings, up), card)
     _held_nodes(model, index, lists)
     refuse(problems)
     return Supports(
-        _contacts(lists, lists.rows),
+        _contacts(lists, lists.contacts),
         _sliders(lists),
         tuple(lists.cards),
         _contacts(lists, lists.snubbers),
@@ -121,35 +136,33 @@ def card_name(s: Support) -> str:
     return " ".join([s.node, *words])
 
 
-def _support(
-    s: Support, card: int, along: PipeAxes, lists: _Lists, settings: Settings
-) -> list[Row]:
+def _support(s: Support, along: PipeAxes, words: dict[int, Row], settings: Settings) -> list[Row]:
     """Give the contacts of a SUPPORT card; raise ValueError for what cannot be."""
     rows: list[Row] = []
     for d in s.directions:
-        if d not in lists.words:
-            lists.words[d] = _word(d, settings)
-        row = lists.words[d]
-        normals = row.normals
-        if not normals:
+        row = words.get(id(d))
+        if row is None:
+            row = words[id(d)] = _word(d, settings)
+        if not row.normals:
             try:
                 normals = _pipe_normals(d.word, along.at(s.node, d.along), along.up)
             except ValueError as error:
                 raise ValueError(f"{d.word}: {error}") from error
             if len(normals) == 2 and d.gap[0] != d.gap[1]:
                 raise ValueError(f"{d.word}: round a vertical pipe there is one radial gap")
-        rows.append(Row(card, row.rotational, normals, *row[3:]))
+            row = row._replace(normals=normals)
+        rows.append(row)
     return rows
 
 
-def _snubber(s: Support, card: int, settings: Settings) -> list[Row]:
+def _snubber(s: Support, settings: Settings) -> list[Row]:
     """Two-way contacts that hold only where snubbers are locked."""
     rows = []
     for d in s.directions:
         normal = AXES[WORDS.index(d.word)] if d.vector is None else unit(d.vector)
         own = s.k if d.k is None else d.k
         k = settings.k if own is None else own
-        rows.append(Row(card, False, (normal,), (0.0, 0.0), k, own is None, d.word))
+        rows.append(Row(False, (normal,), (0.0, 0.0), k, own is None, d.word))
     return rows
 
 
@@ -173,7 +186,7 @@ def _word(d: Direction, settings: Settings) -> Row:
     k = (settings.kr if rotational else settings.k) if d.k is None else d.k
     mu = 0.0 if rotational else settings.mu if d.mu is None else d.mu
     kf = settings.kf if d.kf is None else d.kf
-    return Row(-1, rotational, normals, gap, k, d.k is None, word, mu, kf)
+    return Row(rotational, normals, gap, k, d.k is None, word, mu, kf)
 
 
 def _pipe_normals(word: str, axis: Vec, up: Vec) -> tuple[Vec, ...]:
@@ -185,7 +198,7 @@ def _pipe_normals(word: str, axis: Vec, up: Vec) -> tuple[Vec, ...]:
     return (forward(unit(cross(up, axis))),)
 
 
-def _fixed(s: Support, card: int, settings: Settings, up: Vec) -> list[Row]:
+def _fixed(s: Support, settings: Settings, up: Vec) -> list[Row]:
     """Two-way contacts without friction: anchors, hangers, springs to ground."""
     gap = (0.0, 0.0)
     if s.kind == "anchor":
@@ -195,29 +208,33 @@ def _fixed(s: Support, card: int, settings: Settings, up: Vec) -> list[Row]:
             for x, given in zip(own, (settings.k, settings.kr), strict=True)
         ]
         return [
-            Row(card, i >= 3, (AXES[i % 3],), gap, k[i // 3], own[i // 3] is None, WORDS[i])
+            Row(i >= 3, (AXES[i % 3],), gap, k[i // 3], own[i // 3] is None, WORDS[i])
             for i in range(6)
         ]
     if s.kind == "hanger":
         word = next(w for w, e in zip(WORDS, AXES, strict=False) if e == up)
-        return [Row(card, False, (up,), gap, s.k or 0.0, False, word)]
+        return [Row(False, (up,), gap, s.k or 0.0, False, word)]
     axes = AXES if s.axis is None else upright(unit(s.axis), up)
     return [
-        Row(card, i >= 3, (axes[i % 3],), gap, k, False, "K" + WORDS[i])
+        Row(i >= 3, (axes[i % 3],), gap, k, False, "K" + WORDS[i])
         for i, k in enumerate(s.ks or ())
         if k > 0.0
     ]
 
 
-def _add_slides(s: Support, rows: list[Row], settings: Settings, lists: _Lists) -> None:
+def _add_slides(s: Support, card: int, rows: list[Row], settings: Settings, lists: _Lists) -> None:
     """Give a card its friction: a slider a contact, or one for the card (RESULTANT)."""
-    first = len(lists.rows)
-    law = next((d.friction for d in s.directions if d.friction is not None), settings.friction)
+    first = len(lists.contacts.rows)
+    law = settings.friction
+    for d in s.directions:
+        if d.friction is not None:
+            law = d.friction
+            break
     if law == "CONTACT":
         for i, row in enumerate(rows, start=first):
             if row.mu > 0.0:
                 basis = lists.plane(row.normals)
-                lists.slides.append(Slide(row.card, basis, row.mu, row.kf, [i]))
+                lists.slides.append(Slide(card, basis, row.mu, row.kf, [i]))
         return
     pressing = [i for i, row in enumerate(rows) if not row.rotational]
     if not pressing:
@@ -227,7 +244,7 @@ def _add_slides(s: Support, rows: list[Row], settings: Settings, lists: _Lists) 
     basis = lists.plane(tuple(n for i in touching for n in rows[i].normals))
     if rough.mu > 0.0 and basis:
         contacts = [first + i for i in pressing]
-        lists.slides.append(Slide(rough.card, basis, rough.mu, rough.kf, contacts))
+        lists.slides.append(Slide(card, basis, rough.mu, rough.kf, contacts))
 
 
 def _held_nodes(model: Model, index: dict[str, int], lists: _Lists) -> None:
@@ -247,28 +264,36 @@ def _held_nodes(model: Model, index: dict[str, int], lists: _Lists) -> None:
     k = (model.settings.k, model.settings.kr)
     for node, components in given.items():
         card = lists.card(first[node], node, -1)
-        lists.rows += [
-            Row(card, i >= 3, (AXES[i % 3],), (0.0, 0.0), k[i // 3], True, WORDS[i])
+        rows = [
+            Row(i >= 3, (AXES[i % 3],), (0.0, 0.0), k[i // 3], True, WORDS[i])
             for i in sorted(set(components))
         ]
+        lists.contacts.add(rows, card)
 
 
-def _contacts(lists: _Lists, rows: list[Row]) -> Contacts:
-    card = np.array([r.card for r in rows], dtype=np.int32)
-    gap = np.array([r.gap for r in rows], dtype=np.float64).reshape(-1, 2)
-    normal = [(*r.normals, ZERO)[:2] for r in rows]
+def _contacts(lists: _Lists, found: _Rows) -> Contacts:
+    """Make the arrays of all rows from those of the different ones."""
+    place: dict[int, int] = {}
+    kinds: list[Row] = []
+    for row in found.rows:
+        if place.setdefault(id(row), len(kinds)) == len(kinds):
+            kinds.append(row)
+    which = np.array([place[id(row)] for row in found.rows], dtype=np.int32)
+    card = np.array(found.card, dtype=np.int32)
+    normal = np.array([(*r.normals, ZERO)[:2] for r in kinds], dtype=np.float64)
+    gap = np.array([r.gap for r in kinds], dtype=np.float64).reshape(-1, 2)
     return Contacts(
         node=np.array(lists.node, dtype=np.int32)[card],
         cnode=np.array(lists.cnode, dtype=np.int32)[card],
         card=card,
-        rotational=np.array([r.rotational for r in rows], dtype=np.bool_),
-        dim=np.array([len(r.normals) for r in rows], dtype=np.int32),
-        normal=np.array(normal, dtype=np.float64).reshape(-1, 2, 3),
-        gap=gap,
-        k=np.array([r.k for r in rows], dtype=np.float64),
-        penalty=np.array([r.penalty for r in rows], dtype=np.bool_),
-        two_way=(gap == 0.0).all(axis=1),
-        word=tuple(r.word for r in rows),
+        rotational=np.array([r.rotational for r in kinds], dtype=np.bool_)[which],
+        dim=np.array([len(r.normals) for r in kinds], dtype=np.int32)[which],
+        normal=normal.reshape(-1, 2, 3)[which],
+        gap=gap[which],
+        k=np.array([r.k for r in kinds], dtype=np.float64)[which],
+        penalty=np.array([r.penalty for r in kinds], dtype=np.bool_)[which],
+        two_way=(gap == 0.0).all(axis=1)[which],
+        word=tuple(r.word for r in found.rows),
     )
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from trunnion.errors import Problem
 from trunnion.model import Model
 from trunnion.system.bends import Legs, bend_radius, corner, pipe_name, turn_at
-from trunnion.system.vectors import Vec, add, sub
+from trunnion.system.vectors import Vec, sub
 
 BEND_POINT = re.compile(r"(\d+)[NMF]")
 
@@ -45,6 +45,8 @@ class Net:
     def spread(self) -> None:
         """Place all that hangs on labels with coordinates."""
         position, fresh = self.position, self.fresh
+        if not self.edges:
+            fresh.clear()
         while fresh:
             a = fresh.popleft()
             x, y, z = position[a]
@@ -93,14 +95,17 @@ def _follow(model: Model, net: Net) -> None:
 
     Most decks are written along their lines, and this is all they need.
     """
-    position = net.position
+    position, parent, fresh = net.position, net.parent, net.fresh
     for pipe in model.pipes:
         if pipe.delta is None:
             continue
         start, end = pipe.start, pipe.end
         if start in position:
             if end not in position:
-                net.put(end, add(position[start], pipe.delta), start)
+                x, y, z = position[start]
+                dx, dy, dz = pipe.delta
+                position[end], parent[end] = (x + dx, y + dy, z + dz), start  # as put does
+                fresh.append(end)
         elif end in position:
             net.put(start, sub(position[end], pipe.delta), end)
         else:
@@ -127,8 +132,11 @@ def _vertex(label: str, legs: Mapping[str, Legs]) -> str:
 
 
 def _check_found(model: Model, legs: Mapping[str, Legs], net: Net, problems: list[Problem]) -> None:
+    position = net.position
     for pipe in model.pipes:
-        lost = [label for label in (pipe.start, pipe.end) if label not in net.position]
+        if pipe.start in position and pipe.end in position:
+            continue
+        lost = [label for label in (pipe.start, pipe.end) if label not in position]
         if lost:
             name = f"{'RIGID' if pipe.rigid else 'PIPE'} {pipe_name(pipe)}"
             text = f"{name}: nothing gives the coordinates of {' and '.join(lost)}"

@@ -1,11 +1,11 @@
 """Arrays of elements: axes, lengths, rigidities, factors of bends."""
 
-from dataclasses import dataclass
 from math import cos, pi, sin
 
 import numpy as np
 
-from trunnion.arrays import ARC, F8, I4, SPRING
+from trunnion.arrays import F8, I4, SPRING
+from trunnion.frozen import frozen
 from trunnion.model import Material, Model, Section
 from trunnion.system.bends import Corner, flexibility, stiffening_pressure
 from trunnion.system.geometry import Geometry
@@ -16,7 +16,7 @@ RIGID_WALL = 10.0  # wall of a rigid in walls of its pipe, at the same inside di
 _VERTICAL = 1e-6  # as in vectors.upright
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@frozen(eq=False)
 class Elements:
     """The element arrays of a System, under the same names."""
 
@@ -45,17 +45,18 @@ def build_elements(
 ) -> Elements:
     """Describe the rows of `numbering` by arrays."""
     rows = numbering.rows
-    n = len(rows)
+    n = len(rows.names)
     start, end, kind, source = (
-        np.array([row[i] for row in rows], dtype=np.int32) for i in range(4)
+        np.array(column, dtype=np.int32)
+        for column in (rows.start, rows.end, rows.kind, rows.source)
     )
     ends = np.stack([start, end], axis=1)
     run = _runs(model, geometry, xyz, ends, source)
     length = np.linalg.norm(run, axis=1)
     axes = straight_axes(run, length, up)
     radius, angle, flex, spring = np.zeros(n), np.zeros(n), np.ones(n), np.zeros((n, 6))
-    for e in np.flatnonzero(kind == ARC).tolist():
-        c, (first, last) = geometry.corners[rows[e].bend], rows[e].share
+    for e, (bend, first, last) in rows.arcs.items():
+        c = geometry.corners[bend]
         axes[e] = _arc_axes(c, first * c.angle)
         radius[e], angle[e] = c.radius, (last - first) * c.angle
         length[e] = radius[e] * angle[e]
@@ -104,9 +105,8 @@ def _runs(model: Model, geometry: Geometry, xyz: F8, ends: I4, source: I4) -> F8
     for c in geometry.corners.values():
         taken[c.legs.near] += c.tangent
         taken[c.legs.far] += c.tangent
-    missing = (np.nan,) * 3
-    given = np.array([missing, *(p.delta or missing for p in model.pipes)], dtype=np.float64)[1:]
-    given = np.vstack([given, [missing]])
+    missing = (np.nan,) * 3  # as for springs, the last row
+    given = np.array([*(p.delta or missing for p in model.pipes), missing], dtype=np.float64)
     full = np.linalg.norm(given, axis=1)
     left = 1.0 - np.append(taken, 0.0) / np.where(full > 0.0, full, np.inf)
     said = (given * left[:, None])[source]
@@ -132,16 +132,12 @@ def _flex(model: Model, c: Corner) -> float:
 def _properties(model: Model) -> F8:
     """EA, GJ, EI, GAs, od, wall of each pipe; the last row is for springs, all zero."""
     shear = model.settings.shear
+    keys = [(pipe.section, pipe.material, pipe.rigid) for pipe in model.pipes]
     known: dict[tuple[str, str, bool], tuple[float, ...]] = {}
-    rows: list[tuple[float, ...]] = []
-    for pipe in model.pipes:
-        key = (pipe.section, pipe.material, pipe.rigid)
-        if key not in known:
-            section, material = model.sections[pipe.section], model.materials[pipe.material]
-            known[key] = section_rigidity(section, material, rigid=pipe.rigid, shear=shear)
-        rows.append(known[key])
-    rows.append((0.0,) * 6)
-    return np.array(rows)
+    for key in set(keys):
+        section, material = model.sections[key[0]], model.materials[key[1]]
+        known[key] = section_rigidity(section, material, rigid=key[2], shear=shear)
+    return np.array([*map(known.__getitem__, keys), (0.0,) * 6])
 
 
 def section_rigidity(

@@ -12,16 +12,32 @@ from trunnion.system.geometry import Geometry
 from trunnion.system.vectors import size, sub
 
 
-class Row(NamedTuple):
-    """One element: node numbers of its ends, its pipe (-1: spring), its part of a bend."""
+class Share(NamedTuple):
+    """An arc's part of its bend: label of the bend, first and last part of the angle."""
 
-    start: int
-    end: int
-    kind: int
-    source: int
-    names: Part
-    bend: str = ""
-    share: tuple[float, float] = (0.0, 1.0)  # part of the bend's angle
+    bend: str
+    first: float
+    last: float
+
+
+@dataclass(slots=True)
+class Rows:
+    """Elements in the deck's order, column by column; source -1 is a spring."""
+
+    start: list[int] = field(default_factory=list)  # node numbers
+    end: list[int] = field(default_factory=list)
+    kind: list[int] = field(default_factory=list)
+    source: list[int] = field(default_factory=list)  # numbers of pipes
+    names: list[Part] = field(default_factory=list)
+    arcs: dict[int, Share] = field(default_factory=dict)  # by number of the element
+
+    def add(self, start: int, end: int, kind: int, source: int, names: Part) -> None:
+        """Append one element."""
+        self.start.append(start)
+        self.end.append(end)
+        self.kind.append(kind)
+        self.source.append(source)
+        self.names.append(names)
 
 
 @dataclass(slots=True)
@@ -32,7 +48,7 @@ class Numbering:
     index: dict[str, int] = field(default_factory=dict)
     alias: dict[str, int] = field(default_factory=dict)
     mid: dict[str, int] = field(default_factory=dict)
-    rows: list[Row] = field(default_factory=list)
+    rows: Rows = field(default_factory=Rows)
     same: dict[str, str] = field(default_factory=dict)  # labels that fell together
 
     def node(self, label: str) -> int:
@@ -65,12 +81,15 @@ class Numbering:
 def number(model: Model, geometry: Geometry) -> Numbering:
     """Give nodes their numbers; list elements: each pipe, then the bend that it leads into."""
     numbering = Numbering()
-    corners = geometry.corners
+    corners, index, node, add = (
+        geometry.corners,
+        numbering.index,
+        numbering.node,
+        numbering.rows.add,
+    )
     vanished = _vanished(model, geometry, numbering)
-    users = standing(model)
-    used = {label for label, _, _ in users}
-    used |= {x for p in model.pipes for x in (p.start, p.end)}
-    used |= {x for s in model.springs for x in (s.start, s.end)}
+    users = [label for label, _, _ in standing(model)]
+    used = _used(model, users) if corners else frozenset()
     bends_of: dict[int, list[str]] = {}
     for label, c in corners.items():
         bends_of.setdefault(c.legs.near, []).append(label)
@@ -81,34 +100,44 @@ def number(model: Model, geometry: Geometry) -> Numbering:
                 a, b = _point(a, i, corners), _point(b, i, corners)
             kind = "rigid" if pipe.rigid else "pipe"
             part = Part(a, b, kind, pipe.section, pipe.material, pipe.place.line)
-            row = Row(numbering.node(a), numbering.node(b), STRAIGHT, i, part)
-            numbering.rows.append(row)
-        for label in bends_of.get(i, ()):
-            _bend(label, corners[label], model, label + "M" in used, numbering)
+            start = index[a] if a in index else node(a)
+            add(start, index[b] if b in index else node(b), STRAIGHT, i, part)
+        if i in bends_of:
+            for label in bends_of[i]:
+                _bend(label, corners[label], model, label + "M" in used, numbering)
     for spring in model.springs:
         a, b = (label + "F" if label in corners else label for label in (spring.start, spring.end))
         part = Part(a, b, "spring", None, None, spring.place.line)
-        row = Row(numbering.node(a), numbering.node(b), SPRING, -1, part)
-        numbering.rows.append(row)
+        add(node(a), node(b), SPRING, -1, part)
     for label in corners:
         numbering.index[label] = numbering.alias[label] = numbering.node(label + "F")
-    for label, _, _ in users:
-        numbering.node(label)
+    for label in users:
+        if label not in index:
+            node(label)
     return numbering
+
+
+def _used(model: Model, users: list[str]) -> set[str]:
+    """Labels that a card names."""
+    return {
+        *users,
+        *(x for p in model.pipes for x in (p.start, p.end)),
+        *(x for s in model.springs for x in (s.start, s.end)),
+    }
 
 
 def _bend(label: str, c: Corner, model: Model, has_mid: bool, numbering: Numbering) -> None:
     """Add the arc of a bend, in two halves if its middle is a node."""
-    i = c.legs.near
+    i, rows = c.legs.near, numbering.rows
     pipe = model.pipes[i]
     n, m, f = (label + point for point in "NMF")
-    halves = [(n, m, (0.0, 0.5)), (m, f, (0.5, 1.0))] if has_mid else [(n, f, (0.0, 1.0))]
+    halves = [(n, m, 0.0, 0.5), (m, f, 0.5, 1.0)] if has_mid else [(n, f, 0.0, 1.0)]
     if not has_mid:
-        numbering.mid[m] = len(numbering.rows)
-    for a, b, share in halves:
+        numbering.mid[m] = len(rows.names)
+    for a, b, first, last in halves:
         part = Part(a, b, "bend", pipe.section, pipe.material, c.legs.bend.place.line)
-        row = Row(numbering.node(a), numbering.node(b), ARC, i, part, label, share)
-        numbering.rows.append(row)
+        rows.arcs[len(rows.names)] = Share(label, first, last)
+        rows.add(numbering.node(a), numbering.node(b), ARC, i, part)
 
 
 def _point(label: str, pipe: int, corners: dict[str, Corner]) -> str:

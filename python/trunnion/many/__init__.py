@@ -1,0 +1,1 @@
+"""Many decks and many variants: processes, records of what is done, studies."""

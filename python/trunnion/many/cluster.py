@@ -1,0 +1,125 @@
+"""A batch on a Dask cluster: models go out, reports come back; the client alone touches files.
+
+So workers need Trunnion of the same version and nothing else, no shared folder.  Dask gives the
+decks of a worker that is lost to others; one at which several workers died is reported.
+"""
+
+from collections.abc import Callable, Generator, Sequence
+from pathlib import Path
+from time import sleep
+from typing import TYPE_CHECKING, Any
+
+from trunnion.errors import BatchError, DeckError, ModelError
+from trunnion.many.onedeck import (
+    Settings,
+    broken,
+    read_deck,
+    refused,
+    solve_model,
+    write_deck,
+)
+from trunnion.many.records import INTERNAL, Entry, fingerprints, settings_of
+from trunnion.model import Model
+
+if TYPE_CHECKING:
+    from distributed import Client, Future
+
+TICK = 0.05  # between two looks at what is done [s]
+ANSWERS = "10s"  # a scheduler that does not within is not there
+
+Sent = tuple[Path, dict[str, str]]
+
+
+def solve_there(
+    todo: Sequence[Path],
+    folder: Path,
+    settings: Settings,
+    address: str,
+    tick: Callable[[], None] | None,
+) -> Generator[Entry, None, None]:
+    """Give the entries of decks as they come; leaving early cancels what is not done."""
+    client = _connect(address)
+    sent: dict[Future, Sent] = {}
+    try:
+        for deck in todo:
+            try:
+                model, sources = read_deck(deck)
+                marks = fingerprints(sources, deck)
+            except (DeckError, ModelError) as error:
+                yield refused(deck, error)
+                continue
+            except Exception as error:
+                yield broken(deck, folder, error)
+                continue
+            future = client.submit(solve_remote, model, deck.name, dict(settings), pure=False)
+            sent[future] = deck, marks
+        while sent:
+            for future in _ready(sent, client, tick):
+                deck, marks = sent.pop(future)
+                yield _take(future, deck, marks, folder, settings)
+                future.release()
+    finally:
+        client.cancel(list(sent), force=True)
+        client.close(timeout=2)
+
+
+def solve_remote(model: Model, deck: str, settings: Settings) -> tuple[Entry, dict[str, bytes]]:
+    """Solve a model on a worker; what the program refuses is an entry without reports."""
+    here = settings_of(h5=bool(settings["h5"]))
+    if here != settings:
+        theirs, ours = settings["version"], here["version"]
+        raise RuntimeError(f"this worker has Trunnion {ours}, the batch is of {theirs}")
+    try:
+        return solve_model(model, Path(deck), settings)
+    except (DeckError, ModelError) as error:
+        return refused(Path(deck), error), {}
+
+
+def _connect(address: str) -> "Client":
+    try:
+        from distributed import Client
+    except ImportError as error:
+        raise BatchError(
+            "--scheduler needs the package distributed: pip install 'trunnion[dask]'"
+        ) from error
+    try:
+        return Client(address, timeout=ANSWERS, set_as_default=False)
+    except (TimeoutError, OSError, ValueError) as error:
+        raise BatchError(f"no Dask scheduler answers at {address}: {error}") from error
+
+
+def _ready(
+    sent: "dict[Future, Sent]", client: "Client", tick: Callable[[], None] | None
+) -> "list[Future]":
+    """Wait a moment for futures that are done.
+
+    Raises
+    ------
+    BatchError
+        The scheduler went away.
+    """
+    sleep(TICK)
+    if tick is not None:
+        tick()
+    if client.status not in ("running", "connecting"):
+        raise BatchError(f"the Dask scheduler went away with {len(sent)} decks unsolved")
+    return [future for future in sent if future.done()]
+
+
+def _take(
+    future: "Future", deck: Path, marks: dict[str, str], folder: Path, settings: Settings
+) -> Entry:
+    """Write what came back, or say why nothing did."""
+    if future.status != "finished":
+        error: Any = future.exception() if future.status == "error" else None
+        lost = f"{future.status}: the scheduler went away or gave it up"
+        cause = f"{type(error).__name__}: {error}" if error is not None else lost
+        return Entry(deck.stem, deck.name, INTERNAL, causes=(f"on the cluster: {cause}",))
+    try:
+        answer: tuple[Entry, dict[str, bytes]] = future.result()
+        entry, reports = answer
+        if reports:
+            write_deck(entry, reports, marks, folder, settings)
+        return entry
+    except Exception as error:
+        return broken(deck, folder, error)

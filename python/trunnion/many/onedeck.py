@@ -1,0 +1,119 @@
+"""One deck of a batch: read, solved, reported; every end of it becomes an entry."""
+
+import traceback
+from collections.abc import Mapping
+from pathlib import Path
+
+from trunnion.arrays import Results
+from trunnion.errors import DeckError, ModelError
+from trunnion.many.records import (
+    BAD_DECK,
+    CERTIFIED,
+    FAILED,
+    INTERNAL,
+    CaseLine,
+    Entry,
+    fingerprints,
+    record,
+    record_path,
+)
+from trunnion.model import Model, Place
+from trunnion.results.supports import cause_of, is_good
+
+Settings = Mapping[str, object]
+
+
+def solve_deck(deck: Path, folder: Path, settings: Settings) -> Entry:
+    """Solve one deck and write its reports and its record, all of them or none."""
+    try:
+        model, sources = read_deck(deck)
+        entry, reports = solve_model(model, deck, settings)
+        write_deck(entry, reports, fingerprints(sources, deck), folder, settings)
+        return entry
+    except (DeckError, ModelError) as error:
+        return refused(deck, error)
+    except Exception as error:
+        return broken(deck, folder, error)
+
+
+def read_deck(deck: Path) -> tuple[Model, tuple[str, ...]]:
+    """Read a deck; give the files it is made of as well."""
+    from trunnion.deck.reader import read_sources
+
+    return read_sources(deck)
+
+
+def solve_model(model: Model, deck: Path, settings: Settings) -> tuple[Entry, dict[str, bytes]]:
+    """Solve a model; give its entry and its reports by their file names."""
+    import trunnion
+    from trunnion.report import report_files
+
+    results = trunnion.solve(model)
+    files = report_files(results, model, Path(), deck.stem, h5=bool(settings["h5"]))
+    reports = {path.name: content for path, content in files.items()}
+    return entry_of(results, deck, tuple(reports)), reports
+
+
+def write_deck(
+    entry: Entry,
+    reports: Mapping[str, bytes],
+    sources: Mapping[str, str],
+    folder: Path,
+    settings: Settings,
+) -> None:
+    """Write reports and record; the record comes last, so it never stands alone."""
+    from trunnion.report.atomic import write_files
+
+    files = {folder / name: content for name, content in reports.items()}
+    own = {record_path(folder, entry.stem): record(entry, sources, settings, files)}
+    write_files(files | own)
+
+
+def entry_of(results: Results, deck: Path, files: tuple[str, ...]) -> Entry:
+    """Sum up a solved deck."""
+    cases = results.cases.values()
+    causes = [f"{case.name}: {cause_of(case)}" for case in cases if not is_good(case)]
+    causes += [f"CYCLE {c.name}: {c.cause}" for c in results.cycles.values() if c.cause]
+    return Entry(
+        stem=deck.stem,
+        deck=deck.name,
+        status=FAILED if causes else CERTIFIED,
+        cases=tuple(
+            CaseLine(
+                case.name,
+                case.kind,
+                is_good(case),
+                case.certificate.worst if case.certificate and is_good(case) else None,
+                None if is_good(case) else cause_of(case),
+            )
+            for case in cases
+        ),
+        warnings=len(results.warnings) + sum(len(case.warnings) for case in cases),
+        causes=tuple(causes),
+        files=files,
+    )
+
+
+def refused(deck: Path, error: DeckError | ModelError) -> Entry:
+    """Entry of a deck that is wrong: every problem is a cause."""
+    causes = tuple(f"{_spot(problem.place)}: {problem.text}" for problem in error.problems)
+    return Entry(deck.stem, deck.name, BAD_DECK, causes=causes)
+
+
+def _spot(place: object) -> str:
+    """File and line without folders: the summary is the same wherever the decks stand."""
+    return f"{Path(place.file).name}:{place.line}" if isinstance(place, Place) else str(place)
+
+
+def broken(deck: Path, folder: Path, error: Exception) -> Entry:
+    """Entry of a deck at which the program itself failed; a log file has the traceback."""
+    from trunnion.report.atomic import write_files
+
+    log = folder / f"{deck.stem}-error.log"
+    cause = f"{type(error).__name__}: {error}"
+    try:
+        write_files({log: "".join(traceback.format_exception(error)).encode()})
+        cause += f" (traceback in {log.name})"
+    except OSError as full:
+        cause += f" (no log file: {full.strerror})"
+    return Entry(deck.stem, deck.name, INTERNAL, causes=(cause,))

@@ -1,0 +1,85 @@
+"""The summary of a batch: a table for the screen, JSON and CSV for programs."""
+
+import csv
+import io
+from collections.abc import Sequence
+
+from trunnion.many.records import Entry, summary_of
+from trunnion.report.columns import integers, table, words
+from trunnion.report.encode import dump
+
+CAUSES = 6  # of a deck on the screen
+
+
+def summary_json(entries: Sequence[Entry]) -> bytes:
+    """Write the summary file: a deck a line; the same however the batch was run."""
+    counts = {status: sum(e.status == status for e in entries) for status in _statuses(entries)}
+    head = f'{{"schema":1,"decks":{len(entries)},"status":{dump(counts)},"entries":[\n'
+    return (head + ",\n".join(dump(summary_of(e)) for e in entries) + "\n]}\n").encode()
+
+
+def summary_csv(entries: Sequence[Entry]) -> bytes:
+    """Write one row a case; a deck without cases has one of its own."""
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow(["deck", "status", "case", "kind", "converged", "certificate", "cause"])
+    for e in entries:
+        if not e.cases:
+            writer.writerow([e.deck, e.status, "", "", "", "", "; ".join(e.causes)])
+        for c in e.cases:
+            worst = "" if c.worst is None else f"{c.worst:.3g}"
+            row = [e.deck, e.status, c.name, c.kind, int(c.converged), worst, c.cause or ""]
+            writer.writerow(row)
+    return out.getvalue().encode()
+
+
+def summary_screen(entries: Sequence[Entry]) -> str:
+    """Print the table of all decks, then every failure with its causes, then the counts."""
+    worst = [max((c.worst for c in e.cases if c.worst is not None), default=None) for e in entries]
+    good = [sum(c.converged for c in e.cases) for e in entries]
+    text = table(
+        [
+            words("DECK", [e.deck for e in entries], least=10, most=48),
+            words("STATUS", [e.status for e in entries], least=14),
+            integers("CASES", [len(e.cases) for e in entries]),
+            integers("GOOD", good),
+            words("  WORST", ["" if w is None else f"  {w:.1e}" for w in worst], least=10),
+            integers("WARNINGS", [e.warnings for e in entries], 9),
+            words("  NOTE", [f"  {_note(e)}" for e in entries]),
+        ],
+        none="no decks",
+    )
+    notes = [f"  {e.deck}: {note}\n" for e in entries for note in e.notes]
+    if notes:
+        text += "\nNOTES\n" + "".join(notes)
+    failures = [e for e in entries if e.code]
+    if failures:
+        text += "\nFAILURES\n" + "".join(map(_failure, failures))
+    counts = [f"{sum(e.status == s for e in entries)} {s}" for s in _statuses(entries)]
+    skipped = sum(e.skipped for e in entries)
+    counts += [f"{skipped} of them finished before"] * bool(skipped)
+    decks = "1 deck" if len(entries) == 1 else f"{len(entries)} decks"
+    return f"{text}\n{decks}: {', '.join(counts)}"
+
+
+def entry_line(entry: Entry) -> str:
+    """Sum up one deck in a line, for progress without a bar."""
+    more = f": {entry.causes[0]}" if entry.causes else ""
+    return f"{entry.deck} {entry.status}{more}"
+
+
+def _statuses(entries: Sequence[Entry]) -> list[str]:
+    """Statuses that occur, the best first."""
+    return [status for _, status in sorted({(e.code, e.status) for e in entries})]
+
+
+def _note(entry: Entry) -> str:
+    return "finished before" if entry.skipped else "see below" if entry.notes else ""
+
+
+def _failure(entry: Entry) -> str:
+    lines = [f"  {entry.deck}: {entry.status}"]
+    lines += [f"    {cause}" for cause in entry.causes[:CAUSES]]
+    if len(entry.causes) > CAUSES:
+        lines.append(f"    ... and {len(entry.causes) - CAUSES} more")
+    return "\n".join(lines) + "\n"
