@@ -52,7 +52,7 @@ bench-million: build
 
 bench-peers: build
 	@$(BIN)/pip install --quiet --disable-pip-version-check --no-build-isolation \
-	    --config-settings=build-dir=build/editable --editable '.[bench,dask,hdf5,peers]'
+	    --config-settings=build-dir=build/editable --editable '.[bench,dask,excel,hdf5,pandas,peers,vtk]'
 
 # The debug build keeps its own directory; only what the Fortran tests need is built in it.
 debug-test: $(READY)

@@ -2,7 +2,7 @@
 
     benchmarks/bench.py [--scope quick|full] [-o FOLDER] [--only PART ...] [--docs]
 
-Parts: racks, passes, sweeps, many, whole, time_spent, million (only where it is named).  Parts
+Parts: racks, passes, sweeps, many, variants, whole, time_spent, million (only where it is named).  Parts
 that are not run keep the tables they have.  With --docs the folder is docs/benchmarks, and
 docs/benchmarks.md and the README's table are written anew from it.
 """
@@ -26,6 +26,7 @@ import sweeps
 import tables
 import targets
 import time_spent
+import variants
 import whole
 from experiment import Row, Scope, full, quick
 
@@ -49,6 +50,7 @@ PARTS: dict[str, Callable[[Scope], dict[str, list[Row]]]] = {
     "passes": _passes,
     "sweeps": sweeps.measure,
     "many": lambda scope: {"many": many.measure(scope)},
+    "variants": lambda scope: {"variants": variants.measure(scope)},
     "whole": _whole,
     "time_spent": lambda scope: {"time_spent": time_spent.measure(scope)},
     "million": lambda scope: {"million": million.measure(scope)},

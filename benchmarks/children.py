@@ -116,7 +116,7 @@ def side_by_side(
     children = [Child(job, limit) for job, limit in zip(jobs, limits, strict=True)]
     times: list[list[float]] = [[] for _ in jobs]
     replies: list[Reply] = [{} for _ in jobs]
-    share = budget / len(jobs)
+    share = budget / 2
     for turn in range(most + 1):  # the first round warms up
         for i, child in enumerate(children):
             spent = sum(times[i])

@@ -9,7 +9,7 @@ from store import duration, length, load, markdown, nodes, times
 from targets import Tables, find, targets
 
 FILES = (
-    "racks", "million", "tolerances", "passes", "sweep_kp", "sweep_kf", "sweep_steps", "many",
+    "racks", "million", "tolerances", "passes", "sweep_kp", "sweep_kf", "sweep_steps", "many", "variants",
     "whole", "reading", "time_spent",
 )  # fmt: skip
 TITLES = {
@@ -209,6 +209,23 @@ def many_table(tables: Tables) -> str:
     return markdown(head, body)
 
 
+def variant_table(tables: Tables) -> str:
+    """A study of many variants."""
+    body = [
+        [
+            row["deck"], row.get("jobs", ""), row.get("variants", row.get("failure", "")),
+            row.get("certified", ""), f"{row['worst']:.0e}" if "worst" in row else "",
+            duration(row.get("seconds")), row.get("analyse", ""), row.get("factorise", ""),
+        ]
+        for row in tables["variants"]
+    ]  # fmt: skip
+    head = (
+        "deck", "processes", "variants", "certified", "worst certificate item", "time", "analyses",
+        "factorisations",
+    )  # fmt: skip
+    return markdown(head, body)
+
+
 def whole_table(tables: Tables) -> str:
     """Whole processes."""
     names = ("whole", "start_up", "read", "solve", "write")
@@ -258,6 +275,7 @@ TABLES: dict[str, Callable[[Tables], str]] = {
     "sweep_kf": partial(stiffness_table, "sweep_kf"),
     "sweep_steps": step_table,
     "many": many_table,
+    "variants": variant_table,
     "whole": whole_table,
     "reading": reading_table,
     "time_spent": spent_table,

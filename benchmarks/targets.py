@@ -18,6 +18,7 @@ SPEED = (  # case, nodes, seconds, floors
     ("fric1", 100_000, 7.5, 120.0),
 )
 DECK, DECK_SECONDS, CARDS = "rack_30", 0.30, 50_000
+VARIANTS, STUDY_SECONDS = 1000, 5.0
 MEMORY, MILLION_MEMORY, MILLION_RATIO = 2048.0, 16384.0, 1.5  # MB, MB, ratio of ratios
 
 
@@ -118,6 +119,11 @@ def _rest(tables: Tables) -> Iterator[tuple[str, str, str, str]]:
     verdict = "not measured" if allowed is None else _verdict(taken, allowed)
     name = "40 linear cases on rack_5000: one case and 39 times two solves"
     yield name, duration(allowed), duration(taken), verdict
+    row = find(tables["variants"], jobs=2, variants=VARIANTS)
+    taken, sound = row.get("seconds"), row.get("certified") == VARIANTS
+    verdict = _verdict(taken, STUDY_SECONDS) if sound or not row else "missed: not all certified"
+    name = "1000 variants of rack_200 `fric1` on 2 cores"
+    yield name, duration(STUDY_SECONDS), duration(taken), verdict
     whole = find(tables["whole"], deck=DECK).get("whole")
     name = "`trunnion run` of a 30-node deck, whole process"
     yield name, duration(DECK_SECONDS), duration(whole), _verdict(whole, DECK_SECONDS)

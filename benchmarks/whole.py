@@ -12,29 +12,22 @@ from tempfile import TemporaryDirectory
 
 from children import PINNED, once
 from experiment import Row, Scope
-from rack_deck import lines
 from rack_line import rack_line
+from reading import deck_of
+from reading import measure as read_and_build
 from worker import Job, Reply
 
 MODELS = Path(__file__).parents[1] / "models"
 DECKS = ("straight_pipe", "hot_header", "b313_s302", "rack_50", "rack_200")
 SMALL = 30  # nodes of the target's deck
 REPEATS = 7
-HEAD = """\
-TITLE    Rack line
-UNITS    mm N MPa C
-DEFAULT  SHEAR=OFF G=9.81
-MATERIAL STEEL  E=203000 NU=0.3 ALPHA=1.17e-05 DENSITY=7850
-SECTION  PIPE   OD=273.1 WALL=9.27 FLUID=1000
-OPERATE  T1=150 TREF=0
-"""
-TAIL = "CASE SUS = W\nCASE OPE = W + T1\nCOMB EXP = OPE - SUS\n"
+MORE = "CASE SUS = W\nCOMB EXP = OPE - SUS\n"  # cases beside OPE
 PARTS = re.compile(r"(read|solve|write) ([0-9.]+) s")
 
 
 def rack_deck(n: int) -> str:
     """Deck of a rack line with a sustained, an operating and an expansion case."""
-    return HEAD + "\n".join(lines(rack_line(n))) + "\n" + TAIL
+    return deck_of(rack_line(n)) + MORE
 
 
 def measure(scope: Scope) -> tuple[list[Row], list[Row]]:
@@ -86,31 +79,16 @@ def _reading(n: int, scope: Scope) -> Row:
 
 def task(job: Job) -> Callable[[], Reply]:
     """Read a deck and build its arrays; cards a second."""
-    text = rack_deck(job["n"])
+    text = deck_of(rack_line(job["n"]))
     cards = sum(1 for line in text.splitlines() if line.strip())
 
     def run() -> Reply:
-        import trunnion
-        from trunnion.system import build_system
-
-        reading, building = [], []
-        with TemporaryDirectory() as folder:
-            path = Path(folder) / "long.inp"
-            path.write_text(text)
-            for _ in range(3):
-                start = time.perf_counter()
-                model = trunnion.read(path)
-                read = time.perf_counter()
-                build_system(model)
-                end = time.perf_counter()
-                reading.append(read - start)
-                building.append(end - read)
-        whole = median(reading) + median(building)
+        read, build = read_and_build(text, REPEATS)
         return {
             "cards": cards,
-            "read": median(reading),
-            "build": median(building),
-            "cards_a_second": cards / whole,
+            "read": read,
+            "build": build,
+            "cards_a_second": cards / (read + build),
         }
 
     return run

@@ -26,6 +26,7 @@ TASKS = {  # task -> module and function: job -> function that runs once
     "many": ("many", "task"),
     "sweep": ("sweeps", "task"),
     "passes": ("passes", "task"),
+    "variants": ("variants", "task"),
     "story": ("time_spent", "task"),
     "cards": ("whole", "task"),
 }
@@ -50,6 +51,8 @@ def main(text: str) -> None:
     replies = os.fdopen(os.dup(1), "w")
     os.dup2(2, 1)  # what programs print is not a reply
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+    _, most = resource.getrlimit(resource.RLIMIT_STACK)
+    resource.setrlimit(resource.RLIMIT_STACK, (most, most))  # OpenSees recurses along the line
     job: Job = json.loads(text)
     module, function = TASKS[job["task"]]
 

@@ -446,7 +446,7 @@ class ModeSet:
         return modes(self)
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Tried:
     """One try for another answer: its number among the answers, or why there is none."""
 
@@ -455,7 +455,7 @@ class Tried:
     cause: str | None
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@frozen(eq=False)
 class Spreading:
     """Certified answers of some tries and how far they lie apart (largest less smallest).
 
@@ -471,7 +471,7 @@ class Spreading:
     moves: F8 | None
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@frozen(eq=False)
 class Spread:
     """What was found of a case beside its answer.
 

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from trunnion.frozen import frozen
+from trunnion.origin import Origin
 
 Label = str | int
 Points = Sequence[Sequence[float]]
@@ -421,6 +422,8 @@ class Model:
     cycles: list[Cycle] = field(default_factory=list)
     # what cards leave behind for the cards that follow (deck.interpreter.Carried)
     carried: Any = field(default=None, compare=False, repr=False)
+    # the foreign file that it was made from, and what is missing; None for a deck
+    origin: Origin | None = field(default=None, compare=False)
 
     def default(self, **keys: Value) -> None:
         """Choose for the whole model: MU= K= KR= KF= SHEAR= UP= G= STIFFEN= BOURDON= ..."""

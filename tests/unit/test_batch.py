@@ -52,7 +52,7 @@ def many(tmp_path):
     """Decks that keep two processes busy for some seconds."""
     folder = tmp_path / "many"
     folder.mkdir()
-    return [Path(shutil.copy(MODELS / "rack_200.inp", folder / f"r{i:02d}.inp")) for i in range(14)]
+    return [Path(shutil.copy(MODELS / "rack_50.inp", folder / f"r{i:02d}.inp")) for i in range(14)]
 
 
 def summary(folder):

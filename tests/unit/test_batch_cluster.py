@@ -68,7 +68,7 @@ def reports(folder):
 def test_nothing_is_lost_when_one_of_two_workers_is_killed_midway(tmp_path):
     folder = tmp_path / "decks"
     folder.mkdir()
-    decks = [shutil.copy(MODELS / "rack_200.inp", folder / f"r{i:02d}.inp") for i in range(20)]
+    decks = [shutil.copy(MODELS / "rack_50.inp", folder / f"r{i:02d}.inp") for i in range(20)]
     bad = folder / "bad.inp"
     bad.write_text("PIPE 10 20 DX=1\nSUPORT 20 +Y\n")
     out = tmp_path / "out"

@@ -57,6 +57,47 @@ def test_a_case_that_fails_exits_1_and_the_good_ones_are_written(home, solves, c
     assert " s, solve " in capsys.readouterr().out
 
 
+def test_every_format_that_is_asked_for_is_written_with_the_others(home, solves, capsys):
+    assert trunnion_exit("run", "a.inp", "-o", "all", "--xlsx", "--csv", "--vtu", "--h5") == 1
+    assert files(home / "all") == [
+        *("a.h5", "a.json", "a.out", "a.pvd", "a.xlsx", "a_csv", "a_vtu"),
+    ]
+    assert "envelope.csv" in files(home / "all" / "a_csv")
+    assert files(home / "all" / "a_vtu") == [
+        f"{case}_{part}.vtu" for case in ("OPE", "TWO") for part in ("pipes", "restraints")
+    ]
+    wrote = capsys.readouterr().out.splitlines()[-1]
+    assert f"{Path('all', 'a_csv')}/ (8 files)" in wrote
+    assert wrote.count(".vtu") == 0
+
+
+def test_a_failure_while_writing_leaves_none_of_the_formats(home, solves, monkeypatch):
+    from trunnion.report import atomic
+
+    real = atomic._write
+
+    def full(path: Path, content: bytes) -> None:
+        if "restraints" in path.name:
+            raise OSError(28, "No space left on device", str(path))
+        real(path, content)
+
+    monkeypatch.setattr(atomic, "_write", full)
+    assert trunnion_exit("run", "a.inp", "-o", "all", "--xlsx", "--csv", "--vtu") == 3
+    assert [path for path in (home / "all").rglob("*") if path.is_file()] == []
+
+
+def test_all_packages_that_are_missing_are_named_before_any_work(home, monkeypatch, capsys):
+    import importlib.util
+
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name: None)
+    assert trunnion_exit("run", "a.inp", "--xlsx", "--vtu", "--csv") == 2
+    assert capsys.readouterr().err.splitlines() == [
+        "--xlsx needs the package xlsxwriter: pip install 'trunnion[excel]'",
+        "--vtu needs the package pyevtk: pip install 'trunnion[vtk]'",
+    ]
+    assert files(home) == ["a.inp"]
+
+
 def test_nothing_of_the_machine_is_in_the_files(home, solves):
     trunnion_exit("run", "a.inp", "-o", "one")
     trunnion_exit("run", home / "a.inp", "-o", home / "two", "--timings")
@@ -185,7 +226,8 @@ def test_interruption_while_writing_keeps_the_old_report(home, solves, monkeypat
 def test_start_up_loads_nothing_heavy(home):
     script = (
         "import sys, trunnion.cli, trunnion.report.text, trunnion.report.json\n"
-        "heavy = {'pint', 'fluids', 'h5py', 'scipy', 'matplotlib', 'rich', 'pandas'}\n"
+        "heavy = {'pint', 'fluids', 'h5py', 'scipy', 'matplotlib', 'rich', 'pandas',"
+        " 'xlsxwriter', 'pyevtk'}\n"
         "print(sorted(heavy & set(sys.modules)))\n"
     )
     found = subprocess.run(

@@ -112,7 +112,7 @@ def test_a_free_pipe_has_modes_and_no_default_cases(tmp_path):
     assert results.modes.rigid == 6
     assert results.modes.frequency[6] > 1.0
     assert "moves freely" in results.warnings[0]
-    out, _ = write_reports(results, model, tmp_path, "free", h5=False)
+    out, _ = write_reports(results, model, tmp_path, "free")
     assert "no cases" in out.read_text()
 
 

@@ -364,6 +364,25 @@ def test_variants_without_answer_are_listed_and_the_exit_code_is_one(tmp_path):
     assert found["envelope"]["PUSH"][0]["max_variant"][0] == 2
 
 
+@pytest.mark.parametrize(
+    ("vary", "said"), [("WALL=10,150", "WALL"), ("LINING=5,140", "LINING"), ("R@30=381,9000", "30")]
+)
+def test_a_variant_that_cannot_be_built_is_one_failure(model, vary, said):
+    done = trunnion.study(model, [vary], cases=["OPE"], jobs=1)
+    assert [i for i, _, _ in done.failures] == [1]
+    assert said in done.failures[0][2].upper()
+    assert done.good[0].all()
+
+
+def test_a_deck_that_moves_freely_is_refused_whatever_varies(tmp_path):
+    deck = tmp_path / "free.inp"
+    deck.write_text(HELD.replace(" Z RX", "").replace(" Z\n", "\n"))
+    code, out, err = command(deck, "--vary", "MU=0.1,0.3", "-o", tmp_path / "out")
+    assert (code, out) == (2, "")
+    assert "every variant: " in err
+    assert not (tmp_path / "out").exists()
+
+
 def test_files_of_a_study(tmp_path, model):
     deck = tmp_path / "line.inp"
     deck.write_text(DECK)

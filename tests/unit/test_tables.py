@@ -1,5 +1,9 @@
 """Results by label."""
 
+import sys
+
+import numpy as np
+import pandas
 import pytest
 
 from trunnion.library.names import UnknownName
@@ -45,3 +49,28 @@ def test_a_table_prints_in_columns(results):
     lines = str(results["OPE"].supports).splitlines()
     assert len({len(line) for line in lines}) == 1
     assert "slip" in lines[-1]
+
+
+def test_a_table_becomes_a_data_frame(results):
+    for table in (
+        results["OPE"].displacements,
+        results["OPE"].supports,
+        results["OPE"].elements,
+        results["OPE"].stresses,
+        results.envelope,
+    ):
+        frame = table.to_pandas()
+        assert list(frame.index) == list(table.labels)
+        assert list(frame.columns) == [*table.words, *table.columns]
+        assert np.array_equal(frame[list(table.columns)].to_numpy(), table.values)
+        for name, column in table.words.items():
+            found = [None if pandas.isna(cell) else cell for cell in frame[name]]
+            assert found == list(column)
+        assert frame.attrs["units"] == dict(zip(table.columns, table.units, strict=True))
+    assert results["OPE"].supports.to_pandas().loc["30", "state"] == "slip"
+
+
+def test_without_pandas_the_extra_is_named(results, monkeypatch):
+    monkeypatch.setitem(sys.modules, "pandas", None)
+    with pytest.raises(ImportError, match=r"pip install 'trunnion\[pandas\]'"):
+        results["OPE"].displacements.to_pandas()

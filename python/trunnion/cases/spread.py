@@ -157,7 +157,7 @@ def _restart(run: Run, case: Case, own: CaseResult, n: int) -> Spreading:
         loads = replace(question.loads, mux=factor * mux)
         return run.ask(case, _from(replace(question, loads=loads), Start(capacity)), origin)[0]
 
-    known = known_forces(own, sliders.mu * mux, ask)
+    known = known_forces(own, sliders.mu * mux, question.loads, ask)
     supply = starts(known, displaced=not question.plan.events)
     answers = _Answers(own)
     gaps = _between(answers, sliders.mu * mux)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from trunnion.arrays import F8, CaseResult
+from trunnion.arrays import F8, CaseResult, Loads
 from trunnion.cases.analysis import Start
 
 SEED = 20_260_731  # of the random starts: the same in every run
@@ -34,18 +34,20 @@ class Known:
     u_free: F8 | None
     up: F8
     shape: tuple[int, int]  # of displacements
+    load: float  # all loads added up: a size where no normal force is known [N]
 
     @property
     def largest(self) -> F8:
         """Largest normal force known of each slider [N]; of no force the mean of the others."""
         known = [n for n in (self.own, self.free, self.stuck) if n is not None]
-        largest: F8 = np.max(known, axis=0) if known else np.ones_like(self.mu)
-        mean = float(largest.mean()) or 1.0
+        largest: F8 = np.max(known, axis=0) if known else np.zeros_like(self.mu)
+        mean = float(largest.mean()) or self.load
         return np.where(largest > 0.0, largest, mean)
 
 
-def known_forces(own: CaseResult, mu: F8, ask: Ask) -> Known:
+def known_forces(own: CaseResult, mu: F8, loads: Loads, ask: Ask) -> Known:
     """Solve the case without friction, and with everything that presses stuck from the start."""
+    line = loads.dist * own.system.length[:, None]
     free, stuck = ask(0.0, None), ask(STICKS, np.where(mu > 0.0, NEVER, 0.0))
     return Known(
         mu=mu,
@@ -56,6 +58,7 @@ def known_forces(own: CaseResult, mu: F8, ask: Ask) -> Known:
         u_free=None if free.state is None else free.state.u,
         up=own.system.up,
         shape=(len(own.system.labels), 6),
+        load=float(np.abs(loads.nodal[:, :3]).sum() + np.abs(line).sum()) or 1.0,
     )
 
 

@@ -7,6 +7,7 @@ Each module has a click command of its own name, and gives the exit code back.
 COMMANDS = {
     "batch": "Solve many DECKS; skip those that are finished.",
     "check": "Read DECK, look for mechanisms and missing loads; solve and write nothing.",
+    "convert": "Write a file of another program (.cii, .xml, .pcf) as a deck.",
     "run": "Solve DECK; write <stem>.out and <stem>.json.",
     "study": "Solve variants of DECK on one symbolic analysis; envelope of support loads.",
 }

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from trunnion.commands.shared import DECK, SOLVED, read_model, say
+from trunnion.commands.shared import DECK, PERMISSIVE, SOLVED, read_model, say
 
 if TYPE_CHECKING:
     from trunnion.arrays import System
@@ -13,14 +13,15 @@ if TYPE_CHECKING:
 
 @click.command()
 @DECK
-def check(deck: Path) -> int:
+@PERMISSIVE
+def check(deck: Path, permissive: bool) -> int:
     """Read DECK, look for mechanisms and missing loads; solve and write nothing."""
     from trunnion.cases.default_cases import may_be_free, with_cases
     from trunnion.loads import case_loads, load_sets
     from trunnion.model import Case
     from trunnion.system import build_system
 
-    read = read_model(deck)
+    read = read_model(deck, permissive=permissive)
     model = with_cases(read)
     system = build_system(model)
     sets = load_sets(model, system)
@@ -35,6 +36,10 @@ def check(deck: Path) -> int:
         (len(system.cards), "supports"),
         (len(model.cases), "cases"),
     )
+    if read.origin is not None:
+        from trunnion.report.origin import origin_lines
+
+        say("\n".join(origin_lines(read.origin)))
     say(f"{deck.name}: no errors; " + ", ".join(f"{n} {what}" for n, what in counts))
     return SOLVED
 

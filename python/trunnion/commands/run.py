@@ -9,8 +9,10 @@ from trunnion.commands.shared import (
     DECK,
     FAILED,
     FOLDER,
+    PERMISSIVE,
     SOLVED,
     InputError,
+    further_options,
     read_model,
     refuse_unwritable,
     say,
@@ -21,6 +23,7 @@ from trunnion.commands.shared import (
 @click.command()
 @DECK
 @FOLDER
+@further_options
 @click.option(
     "--spread",
     type=click.IntRange(0),
@@ -28,38 +31,48 @@ from trunnion.commands.shared import (
     metavar="N",
     help="Look for other answers of every case from N other starts and load orders.",
 )
-@click.option("--h5", is_flag=True, help="Write <stem>.h5 too.")
+@PERMISSIVE
 @click.option("--timings", is_flag=True, help="Print how long each part took.")
-def run(deck: Path, folder: Path, spread: int, h5: bool, timings: bool) -> int:
+def run(
+    deck: Path, folder: Path, spread: int, permissive: bool, timings: bool, **further: bool
+) -> int:
     """Solve DECK; write <stem>.out and <stem>.json."""
     from trunnion.report.screen import screen
 
-    _check_names(deck, h5)
+    also = [name for name, wanted in further.items() if wanted]
+    _check_names(deck, also)
     refuse_unwritable(folder)
     start = perf_counter()
-    model = read_model(deck)
+    model = read_model(deck, permissive=permissive)
     read = perf_counter()
     results = solve_model(model, spread)
     solved = perf_counter()
     from trunnion.report import write_reports
 
-    files = write_reports(results, model, folder, deck.stem, h5=h5)
+    files = write_reports(results, model, folder, deck.stem, also=also)
     written = perf_counter()
     good, text = screen(results, model)
     say(text)
-    say("wrote " + "  ".join(str(file) for file in files))
+    say("wrote " + "  ".join(_shown(files, folder)))
     if timings:
         parts = {"read": read - start, "solve": solved - read, "write": written - solved}
         say(", ".join(f"{name} {seconds:.3f} s" for name, seconds in parts.items()))
     return SOLVED if good else FAILED
 
 
-def _check_names(deck: Path, h5: bool) -> None:
-    """Refuse before any work what would overwrite the deck or could not be written."""
-    if deck.suffix.lower() in (".out", ".json", ".h5"):
-        raise InputError(f"{deck}: a deck must not be called *{deck.suffix}, as the reports are")
-    if h5:
-        from importlib.util import find_spec
+def _shown(files: list[Path], folder: Path) -> list[str]:
+    """Name the files; those in a folder of their own by that folder."""
+    inner = [file.parent for file in files if file.parent != folder]
+    alone = [str(file) for file in files if file.parent == folder]
+    return alone + [f"{place}/ ({inner.count(place)} files)" for place in dict.fromkeys(inner)]
 
-        if find_spec("h5py") is None:
-            raise InputError("--h5 needs the package h5py: pip install 'trunnion[hdf5]'")
+
+def _check_names(deck: Path, also: list[str]) -> None:
+    """Refuse before any work what would overwrite the deck or could not be written."""
+    from trunnion.report.outputs import missing
+
+    if deck.suffix.lower() in (".out", ".json", ".h5", ".xlsx", ".csv", ".vtu", ".pvd"):
+        raise InputError(f"{deck}: a deck must not be called *{deck.suffix}, as the reports are")
+    lacking = [said for said in map(missing, also) if said]
+    if lacking:
+        raise InputError("\n".join(lacking))

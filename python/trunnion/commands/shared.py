@@ -2,6 +2,7 @@
 
 import os
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -17,9 +18,29 @@ DECK = click.argument("deck", type=click.Path(path_type=Path))
 FOLDER = click.option(
     "-o", "folder", type=click.Path(path_type=Path), default=Path(), help="Where the files go."
 )
+PERMISSIVE = click.option(
+    "--permissive", is_flag=True, help="Leave out what a model cannot represent, and list it."
+)
+FOREIGN: tuple[str, ...] = ()  # suffixes of files that are no decks: formats.FORMATS
 JOBS = click.option(
     "-j", "jobs", type=click.IntRange(1), help="Processes at a time; one a core if not given."
 )
+
+
+#: options that ask for further files, as in report.outputs, which needs numpy: help does not
+FURTHER = {
+    "h5": "Write <stem>.h5, too (extra hdf5).",
+    "xlsx": "Write <stem>.xlsx, too: every table, a sheet each (extra excel).",
+    "csv": "Write <stem>_csv/, too: the same tables, a file each.",
+    "vtu": "Write <stem>.pvd and <stem>_vtu/, too, for ParaView (extra vtk).",
+}
+
+
+def further_options(command: Callable[..., int]) -> Callable[..., int]:
+    """Give a command the options of FURTHER."""
+    for name, text in reversed(FURTHER.items()):
+        command = click.option(f"--{name}", name, is_flag=True, help=text)(command)
+    return command
 
 
 class InputError(Exception):
@@ -34,8 +55,14 @@ def say(text: str) -> None:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
-def read_model(deck: Path) -> "Model":
-    """Read the input file of a command."""
+def read_model(deck: Path, *, permissive: bool = False) -> "Model":
+    """Read the input file of a command: a deck, or a file of another program by its suffix."""
+    if deck.suffix.lower() in FOREIGN:
+        from trunnion.formats import read_any
+
+        return read_any(deck, permissive=permissive).model
+    if permissive:
+        raise InputError(f"--permissive is for files of other programs ({' '.join(FOREIGN)})")
     from trunnion.deck.reader import read
 
     return read(deck)

@@ -9,6 +9,7 @@ from trunnion.commands.shared import (
     FAILED,
     FOLDER,
     JOBS,
+    PERMISSIVE,
     SOLVED,
     read_model,
     refuse_unwritable,
@@ -27,6 +28,7 @@ from trunnion.commands.shared import (
 @click.option("--case", "cases", multiple=True, help="Case to report; all if not given.")
 @FOLDER
 @JOBS
+@PERMISSIVE
 @click.option("--warm", is_flag=True, help="Start variants from the answer of the deck as it is.")
 def study(
     deck: Path,
@@ -34,6 +36,7 @@ def study(
     cases: tuple[str, ...],
     folder: Path,
     jobs: int | None,
+    permissive: bool,
     warm: bool,
 ) -> int:
     """Solve variants of DECK; write <stem>-study.out, .json, .csv and <stem>-variants.csv.
@@ -50,7 +53,7 @@ def study(
     from trunnion.report.study_data import envelope_csv, study_json, variants_csv
 
     refuse_unwritable(folder)
-    model = read_model(deck)
+    model = read_model(deck, permissive=permissive)
     total = count(read_axes(with_cases(model), vary))
     with progress("variants", total) as counter:
         done = solve_study(

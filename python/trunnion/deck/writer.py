@@ -5,7 +5,7 @@ A number is written as the shortest decimal that converts to the same float.
 
 import heapq
 import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict
 from typing import Any
 
@@ -31,16 +31,29 @@ from trunnion.model import (
 )
 
 _WIDTH = 100
+_LONGEST_COMMENT = 1000  # characters
 
 
-def write(model: Model) -> str:
+def write(
+    model: Model,
+    *,
+    comments: Mapping[int, Sequence[str]] | None = None,
+    header: Sequence[str] = (),
+) -> str:
     """Write a model as a deck.
+
+    Parameters
+    ----------
+    comments : by the identity (`id`) of a record, lines to put above its card as comments.
+    header : comment lines for the top of the deck.
 
     Raises
     ------
     ModelError : the model holds something that no card can say.
     """
-    text = "\n".join(_fold(line) for line in _Writer(model).lines()) + "\n"
+    top = [comment(line) for line in header]
+    cards = _Writer(model, comments or {}).lines()
+    text = "\n".join([*top, *(_fold(line) for line in cards)]) + "\n"
     try:
         same = read_text(text) == model
     except DeckError as error:
@@ -67,9 +80,15 @@ def shortest(value: float, dimension: str, units: dict[str, str]) -> str:
     return repr(value) + un.DIMENSIONS[dimension][1]  # this unit skips the number; SI has it
 
 
+def comment(text: str) -> str:
+    """Make one comment line of any text."""
+    clean = "".join(c if c.isprintable() else " " for c in text)[:_LONGEST_COMMENT]
+    return f"! {clean}".rstrip()
+
+
 def _fold(line: str) -> str:
     """Continue a long card on further lines."""
-    if len(line) <= _WIDTH or line.startswith("TITLE"):
+    if len(line) <= _WIDTH or line.startswith(("TITLE", "!")):
         return line
     lines, row = [], ""
     for word in line.split():
@@ -83,8 +102,9 @@ def _fold(line: str) -> str:
 class _Writer:
     """Writes the cards of one model."""
 
-    def __init__(self, model: Model) -> None:
+    def __init__(self, model: Model, comments: Mapping[int, Sequence[str]]) -> None:
         self.model = model
+        self.comments = comments
         self.units = un.derived(model.units)
         self.operation = Operation()
         self.section = next(reversed(model.sections), "")
@@ -128,8 +148,10 @@ class _Writer:
             yield _card("UNITS", names)
         yield from self.defaults()
         for material in model.materials.values():
+            yield from self.above(material)
             yield from self.material_cards(material)
         for section in model.sections.values():
+            yield from self.above(section)
             yield self.section_card(section)
         yield from self.body()
         yield from self.dynamics()
@@ -180,6 +202,7 @@ class _Writer:
         if not (one_file and ordered):
             for items, card in rows:
                 for item in items:
+                    yield from self.above(item)
                     yield from card(item)
             return
         streams = [
@@ -187,7 +210,12 @@ class _Writer:
             for i, (items, card) in enumerate(rows)
         ]
         for *_, item, card in heapq.merge(*streams, key=lambda entry: entry[:3]):
+            yield from self.above(item)
             yield from card(item)
+
+    def above(self, item: object) -> Iterator[str]:
+        """Write the comments of a record."""
+        yield from map(comment, self.comments.get(id(item), ()))
 
     def material_cards(self, material: Material) -> Iterator[str]:
         """Write a material and its table; a grade of the library only with what differs."""

@@ -49,7 +49,7 @@ def solve_model(model: Model, deck: Path, settings: Settings) -> tuple[Entry, di
     from trunnion.report import report_files
 
     results = trunnion.solve(model)
-    files = report_files(results, model, Path(), deck.stem, h5=bool(settings["h5"]))
+    files = report_files(results, model, Path(), deck.stem, also=("h5",) if settings["h5"] else ())
     reports = {path.name: content for path, content in files.items()}
     return entry_of(results, deck, tuple(reports)), reports
 

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from trunnion.arrays import B1, F8, I4, System
 from trunnion.cases.default_cases import with_cases
+from trunnion.errors import ModelError, Problem
 from trunnion.many.axes import Axis, combinations, read_axes
 from trunnion.many.forked import run_forked
 from trunnion.many.variants import Answers, Combination, Prepared, prepare, solve_block
@@ -107,7 +108,7 @@ def study(
     BatchError
         What is asked for cannot be varied, or a case is not there.
     DeckError, ModelError
-        The deck itself is wrong.
+        The deck itself is wrong, or no variant of it can be built.
     """
     model = with_cases(model)
     axes = read_axes(model, vary)
@@ -120,13 +121,16 @@ def study(
         name: began.get(name, 0) + sum(part.work.get(name, 0) for part in parts)
         for name in dict.fromkeys([*began, *(name for part in parts for name in part.work)])
     }
+    answers = _joined(parts, work)
+    if answers.refused == len(every):
+        raise ModelError([Problem("every variant", answers.cause[0][0] or "")])
     return Study(
         title=model.title,
         axes=axes,
         names=tuple(_name(axes, combination) for combination in every),
         values=np.array([[a.values[i] for a, i in zip(axes, c, strict=True)] for c in every]),
         cases=base.cases,
-        answers=_joined(parts, work),
+        answers=answers,
         system=base.run.system,
         work=work,
     )
@@ -182,4 +186,5 @@ def _joined(parts: list[Answers], work: dict[str, int]) -> Answers:
         where=[row for part in parts for row in part.where],
         cause=[row for part in parts for row in part.cause],
         work=work,
+        refused=sum(part.refused for part in parts),
     )

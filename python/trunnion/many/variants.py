@@ -17,7 +17,7 @@ from trunnion.arrays import F8, CaseResult, System
 from trunnion.cases.analysis import Run, Start
 from trunnion.cases.casetext import needed
 from trunnion.deck.values import nearest
-from trunnion.errors import BatchError, DeckError, ModelError
+from trunnion.errors import BatchError, DeckError, ModelError, Problem
 from trunnion.loads import LoadSets, load_sets
 from trunnion.many.axes import Axis
 from trunnion.model import Case, Model
@@ -63,6 +63,7 @@ class Answers:
     worst : (n, n_case) certificate.
     where, cause : by variant and case.
     work : of all of them.
+    refused : variants that cannot be built, or move freely with every contact closed.
     """
 
     force: F8
@@ -73,6 +74,7 @@ class Answers:
     where: list[list[str]]
     cause: list[list[str | None]]
     work: dict[str, int]
+    refused: int = 0
 
     @property
     def count(self) -> NDArray[np.int64]:
@@ -155,6 +157,7 @@ def _fill(base: Prepared, combination: Combination, cache: "_Cache", out: Answer
     except (DeckError, ModelError) as error:
         text = "; ".join(problem.text for problem in error.problems)
         out.cause[i] = [text] * len(base.cases)
+        out.refused += 1
         return
     for j, name in enumerate(base.cases):
         _read_out(base, found[name], out, i, j)
@@ -189,7 +192,7 @@ def _made_anew(
     home = base.run
     if members:
         if members not in cache.runs:
-            model.check()
+            _check(model)
             cache.runs[members] = Run(model, {}, like=base.run)
         home = cache.runs[members]
     system, sets = home.system, home.sets
@@ -199,9 +202,25 @@ def _made_anew(
         system = cache.systems[members, supports]
     if loads:
         if (members, loads) not in cache.sets:
+            _check(model)
             cache.sets[members, loads] = load_sets(model, system)
         sets = cache.sets[members, loads]
     return home, system, sets
+
+
+def _check(model: Model) -> None:
+    """Check what a card checks of the values that it gives together, and the whole model."""
+    model.check()
+    problems = []
+    for s in model.sections.values():
+        if s.wall > 0.5 * s.od * (1.0 + 1e-5):  # as on the card
+            problems.append(Problem(s.place, f"SECTION {s.name}: WALL is more than half of OD"))
+        elif s.lining > 0.5 * s.od - s.wall:
+            problems.append(
+                Problem(s.place, f"SECTION {s.name}: LINING is more than half the bore")
+            )
+    if problems:
+        raise ModelError(problems)
 
 
 def _warm(base: Prepared, model: Model, system: System) -> dict[str, Start]:

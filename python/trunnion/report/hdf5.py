@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from trunnion.arrays import CaseResult, CycleResult, ModeSet, Results, System
+from trunnion.model import Model
 from trunnion.report.loops import step_names
 from trunnion.results.balance import local_end_forces
 from trunnion.results.stresses import end_stresses
@@ -30,6 +31,11 @@ if TYPE_CHECKING:
     import h5py
 
 SCHEMA = 1
+
+
+def files(results: Results, model: Model, stem: str) -> dict[str, bytes]:
+    """Write the file; all that it holds of the model stands in the results."""
+    return {f"{stem}.h5": hdf5_report(results)}
 
 
 def hdf5_report(results: Results) -> bytes:

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from trunnion.arrays import F8, CaseResult
+from trunnion.frozen import frozen
 from trunnion.report.columns import Column, headings, numbers, plain, section, table, words, wrapped
 from trunnion.report.units import ReportUnits
 from trunnion.results.supports import (
@@ -121,23 +122,59 @@ def _where(names: list[str], there: list[bool]) -> list[str]:
     return [name if yes else "-" for name, yes in zip(names, there, strict=True)]
 
 
-def _hangers(cases: Sequence[CaseResult], force: F8, move: F8, units: ReportUnits) -> str:
-    """Print load and travel of the spring hangers; CHANGE is that from the cold load, of it."""
-    up = cases[0].system.up
-    at = [i for i, card in enumerate(cases[0].system.cards) if card.kind == "hanger"]
-    if not at:
-        return ""
+@frozen(eq=False)
+class HangerLoads:
+    """Spring hangers in every solved case, one row a hanger and case.
+
+    cold, load : (n,) upward on the pipe [N].
+    travel : (n,) upward [m].
+    change : (n,) of the load from the cold load [%]; NaN where the case has none.
+    """
+
+    names: list[str]
+    cases: list[str]
+    cold: F8
+    load: F8
+    travel: F8
+    change: F8
+
+
+def hanger_loads(cases: Sequence[CaseResult], force: F8, move: F8) -> HangerLoads:
+    """Gather the spring hangers.
+
+    Parameters
+    ----------
+    force : (n_card, n_case, 6) on the restraints [N, N m].
+    move : (n_card, n_case, 3) of the pipe [m].
+    """
+    cards, up = cases[0].system.cards, cases[0].system.up
+    at = [i for i, card in enumerate(cards) if card.kind == "hanger"]
     rows = [(i, j, case) for i in at for j, case in enumerate(cases) if case.kind == "case"]
     load = np.array([-force[i, j, :3] @ up for i, j, _ in rows])
     cold = np.array([case.loads.preload[i] if case.loads else 0.0 for i, _, case in rows])
-    change = np.divide(load - cold, cold, out=np.full(len(cold), np.nan), where=cold != 0.0)
+    return HangerLoads(
+        names=[cards[i].name for i, _, _ in rows],
+        cases=[case.name for _, _, case in rows],
+        cold=cold,
+        load=load,
+        travel=np.array([move[i, j] @ up for i, j, _ in rows]),
+        change=100.0
+        * np.divide(load - cold, cold, out=np.full(len(cold), np.nan), where=cold != 0.0),
+    )
+
+
+def _hangers(cases: Sequence[CaseResult], force: F8, move: F8, units: ReportUnits) -> str:
+    """Print load and travel of the spring hangers; CHANGE is that from the cold load, of it."""
+    if all(card.kind != "hanger" for card in cases[0].system.cards):
+        return ""
+    found = hanger_loads(cases, force, move)
     columns = [
-        words("HANGER", [cases[0].system.cards[i].name for i, _, _ in rows]),
-        words("CASE", [case.name for _, _, case in rows], least=12),
-        numbers("COLD LOAD", cold, units.force, 12),
-        numbers("LOAD", load, units.force, 12),
-        numbers("TRAVEL UP", [move[i, j] @ up for i, j, _ in rows], units.movement, 12),
-        plain("CHANGE", 100.0 * change, 1, 10, "[%]"),
+        words("HANGER", found.names),
+        words("CASE", found.cases, least=12),
+        numbers("COLD LOAD", found.cold, units.force, 12),
+        numbers("LOAD", found.load, units.force, 12),
+        numbers("TRAVEL UP", found.travel, units.movement, 12),
+        plain("CHANGE", found.change, 1, 10, "[%]"),
     ]
     note = "upward on the pipe; change from the cold load"
     return section("SPRING HANGERS", note) + table(columns)

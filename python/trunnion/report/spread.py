@@ -7,10 +7,10 @@ import numpy as np
 from trunnion.arrays import F8, CaseResult, Results, Spread, Spreading
 from trunnion.report.columns import Column, integers, numbers, section, table, words, wrapped
 from trunnion.report.units import ReportUnits
-from trunnion.results.supports import STATES, card_levels
+from trunnion.results.supports import STATES, card_forces, card_levels
 
 HEADS = ("FX", "FY", "FZ", "MX", "MY", "MZ")
-ROUND_OFF = 1e-9  # of the largest load of its kind: less is printed as no spread
+ROUND_OFF = 1e-8  # of the largest load of its kind, ten certificates: less is no spread
 SHOWN = 40  # supports, and elements, with the largest spread; the JSON has all
 
 
@@ -73,22 +73,21 @@ def _largest(s: Spreading, units: ReportUnits) -> str:
         if not flat.size:
             continue
         i, j = np.unravel_index(int(flat[:, :3].argmax()), (len(flat), 3))
-        q = units.force.showing(float(flat[i, j]))
-        size = f"{q.text(float(flat[i, j])).strip()} {q.unit}"
+        size = f"{float(flat[i, j]) * units.force.factor:.5g} {units.force.unit}"
         found.append(f"{what} differ by up to {size} ({places[i]} {HEADS[j]})")
     return ", ".join(found)
 
 
 def _shown(apart: F8, answers: Sequence[CaseResult], kind: int) -> F8:
     """Spread without what is round-off of the loads of its kind; kind 0 supports, 1 elements."""
-    from trunnion.results.supports import card_forces
-
     out = apart.copy()
     known = [card_forces(a) if kind == 0 else a.state.end_force for a in answers if a.state]
-    for half in (slice(0, 3), slice(3, 6)):
-        size = max((float(np.abs(k[..., half]).max(initial=0.0)) for k in known), default=0.0)
-        part = out[..., half]
-        part[part <= ROUND_OFF * max(size, 1e-3)] = 0.0
+    force, moment = (
+        max((float(np.abs(k[..., half]).max(initial=0.0)) for k in known), default=0.0)
+        for half in (slice(0, 3), slice(3, 6))
+    )
+    out[..., :3][out[..., :3] <= ROUND_OFF * max(force, 1e-3 * moment, 1.0)] = 0.0
+    out[..., 3:][out[..., 3:] <= ROUND_OFF * max(moment, 1e-3 * force, 1.0)] = 0.0
     return out
 
 

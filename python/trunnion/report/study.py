@@ -138,13 +138,12 @@ def _largest(study: Study, name: str, units: ReportUnits) -> str:
     found = _on_restraint(study, name)
     if found is None or not study.system.cards:
         return f"{name}: no loads"
-    load = np.stack(found[:2])[..., :3]
-    which = np.stack(found[2:])[..., :3].astype(int)
-    side, axis = np.unravel_index(
-        np.abs(load).transpose(1, 0, 2).reshape(load.shape[1], -1).argmax(axis=1), (2, 3)
+    load, which = (
+        np.concatenate([a[:, :3] for a in pair], axis=1) for pair in (found[:2], found[2:])
     )
-    card = np.arange(load.shape[1])
-    value, variant = load[side, card, axis], which[side, card, axis]
+    column = np.abs(load).argmax(axis=1)
+    card = np.arange(len(load))
+    value, variant, axis = load[card, column], which[card, column].astype(int), column % 3
     order = np.argsort(-np.abs(value), kind="stable")[:SHOWN]
     q = units.force.showing(float(np.abs(value).max(initial=0.0)))
     names = [study.names[v - 1] if v else "-" for v in variant[order].tolist()]

@@ -3,6 +3,7 @@
 import numpy as np
 
 from trunnion.arrays import CaseResult, Results
+from trunnion.frozen import frozen
 from trunnion.report.columns import Column, table, words
 from trunnion.report.units import ReportUnits
 from trunnion.results.supports import card_forces, is_good, solved
@@ -28,17 +29,35 @@ def summary_table(results: Results, units: ReportUnits, *, only: list[str] | Non
     )
 
 
+@frozen
+class Largest:
+    """Largest movement [m] and restraint load [N] of a case, and where; NaN where none is."""
+
+    move: float = float("nan")
+    node: str | None = None
+    load: float = float("nan")
+    support: str | None = None
+
+
+def largest_of(case: CaseResult) -> Largest:
+    """Find the largest movement and restraint load of a certified case."""
+    size = np.linalg.norm(solved(case).u[:, :3], axis=1)
+    node = int(size.argmax())
+    move, label = float(size[node]), case.system.labels[node]
+    if not case.system.cards:
+        return Largest(move, label)
+    load = np.linalg.norm(card_forces(case)[:, :3], axis=1)
+    card = int(load.argmax())
+    return Largest(move, label, float(load[card]), case.system.cards[card].name)
+
+
 def _extremes(case: CaseResult, units: ReportUnits) -> tuple[str, str, str, str]:
     """Largest movement with its node, largest restraint force with its support."""
     if not is_good(case):
         return "-", "", "-", ""
-    size = np.linalg.norm(solved(case).u[:, :3], axis=1)
-    node = int(size.argmax())
-    q = units.movement.showing(float(size[node]))
-    found = [q.text(float(size[node])), f"  {case.system.labels[node]}"]
-    if not case.system.cards:
-        return found[0], found[1], "-", ""
-    load = np.linalg.norm(card_forces(case)[:, :3], axis=1)
-    card = int(load.argmax())
-    q = units.force.showing(float(load[card]))
-    return found[0], found[1], q.text(float(load[card])), f"  {case.system.cards[card].name}"
+    most = largest_of(case)
+    move = units.movement.showing(most.move).text(most.move)
+    if most.support is None:
+        return move, f"  {most.node}", "-", ""
+    load = units.force.showing(most.load).text(most.load)
+    return move, f"  {most.node}", load, f"  {most.support}"

@@ -10,6 +10,7 @@ from trunnion.report.echo import input_echo
 from trunnion.report.frozen import frozen_table, frozen_warning
 from trunnion.report.loops import cycle_report, cycle_warnings
 from trunnion.report.modes import mode_report, mode_warnings
+from trunnion.report.origin import origin_text
 from trunnion.report.points import middle_table, sag_table, stress_table
 from trunnion.report.proof import balance_table, certificate_table, history_table, ledger_table
 from trunnion.report.restraints import restraint_summary
@@ -33,6 +34,7 @@ def text_report(results: Results, model: Model) -> bytes:
     own = [case for case in with_cases(model).cases if isinstance(case, Case)]
     parts = ["TRUNNION   static analysis of piping with nonlinear supports\n"]
     parts.append(f"{results.title or '(no title)'}\n")
+    parts.append(origin_text(model.origin))
     parts.append(chapter("1  SUMMARY"))
     parts.append(summary_table(results, units))
     parts += [wrapped(f"{c.name}: {cause_of(c)}") for c in results.cases.values() if not is_good(c)]

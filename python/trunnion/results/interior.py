@@ -118,6 +118,14 @@ def _turn(axes: F8, vector: F8) -> F8:
     return turned
 
 
+def places(system: System, element: Index, fraction: F8) -> F8:
+    """(n, 3) of points at `fraction` of the length of elements, global [m]."""
+    back = system.axes[element].transpose(0, 2, 1)
+    start = system.xyz[system.ends[element, 0]]
+    found: F8 = start + _turn(back, _position(system, element, fraction))
+    return found
+
+
 def _position(system: System, element: Index, fraction: F8) -> F8:
     """(n, 3) of points in the axes of end 1."""
     arc = system.kind[element] == ARC

@@ -7,6 +7,7 @@ results["OPE"].elements.column("axial_from")
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import fields
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -27,6 +28,9 @@ from trunnion.results.supports import (
     solved,
 )
 from trunnion.results.supports import envelope as extremes
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
 
 Cell = float | str | None
 Words = Mapping[str, Sequence[str | None]]
@@ -79,6 +83,22 @@ class Table:
     def column(self, name: str) -> F8:
         """(n,) numbers of a column."""
         return self.values[:, self.columns.index(name)]
+
+    def to_pandas(self) -> "DataFrame":
+        """Give a pandas.DataFrame: labels as index, units in `attrs["units"]`, SI.
+
+        Raises
+        ------
+        ImportError : pandas is not installed (extra pandas).
+        """
+        try:
+            import pandas
+        except ImportError as error:
+            raise ImportError("to_pandas needs pandas: pip install 'trunnion[pandas]'") from error
+        columns = {**self.words, **dict(zip(self.columns, self.values.T, strict=True))}
+        frame = pandas.DataFrame(columns, index=pandas.Index(self.labels, name="label"))
+        frame.attrs["units"] = dict(zip(self.columns, self.units, strict=True))
+        return frame
 
     def __str__(self) -> str:
         """Print the rows in columns, for a look at the prompt."""

@@ -1,0 +1,35 @@
+"""trunnion convert: a file of another program becomes a deck."""
+
+from pathlib import Path
+
+import click
+
+from trunnion.commands.shared import PERMISSIVE, SOLVED, InputError, refuse_unwritable, say
+
+
+@click.command()
+@click.argument("source", type=click.Path(path_type=Path))
+@click.argument("deck", type=click.Path(path_type=Path))
+@PERMISSIVE
+def convert(source: Path, deck: Path, permissive: bool) -> int:
+    """Read SOURCE, a file of another program, and write DECK with comments on what came whence.
+
+    What a model cannot represent is an error that names it; --permissive leaves it out, and
+    lists it at the top of the deck.
+    """
+    from trunnion.formats import is_foreign, read_any
+    from trunnion.report.atomic import write_files
+    from trunnion.report.origin import origin_lines
+
+    if deck.exists() and source.exists() and deck.samefile(source):
+        raise InputError(f"{deck}: the deck would overwrite its own source")
+    if is_foreign(deck):
+        raise InputError(f"{deck}: a deck must not be called *{deck.suffix}; call it *.inp")
+    if deck.is_dir():
+        raise InputError(f"{deck} is a folder")
+    refuse_unwritable(deck.parent)
+    imported = read_any(source, permissive=permissive)
+    write_files({deck: imported.deck().encode()})
+    say("\n".join(origin_lines(imported.origin)))
+    say(f"wrote {deck}")
+    return SOLVED

@@ -1,0 +1,71 @@
+"""Files of other programs in, `Imported` out: a model, what is missing in it, what came from where.
+
+Each format is a package of its own below this one.  `read_any` finds the format by the contents
+of the file and by its suffix.  Decks never come this way (`deck.reader` reads them).
+"""
+
+import os
+import re
+from collections.abc import Callable
+from importlib import import_module
+
+from trunnion.errors import DeckError, Problem
+from trunnion.formats.findings import Findings
+from trunnion.formats.imported import Imported, Note
+from trunnion.formats.source import Source, read_source
+from trunnion.frozen import frozen
+from trunnion.model import Place
+
+__all__ = ["FORMATS", "Findings", "Imported", "Note", "Source", "is_foreign", "read_any"]
+
+
+@frozen
+class Format:
+    """One format: its name, the module with `read(source, findings)`, what a file begins with."""
+
+    name: str
+    module: str
+    opening: str  # pattern of the first line that is not blank
+
+
+#: by suffix; commands.shared.FOREIGN lists the same suffixes
+FORMATS: dict[str, Format] = {}
+
+
+def is_foreign(path: str | os.PathLike[str]) -> bool:
+    """Tell by its suffix whether a file is one of another program."""
+    return os.path.splitext(path)[1].lower() in FORMATS
+
+
+def read_any(path: str | os.PathLike[str], *, permissive: bool = False) -> Imported:
+    """Read a file of another program.
+
+    Parameters
+    ----------
+    permissive : leave out what a model cannot represent, and list it; else that is an error.
+
+    Raises
+    ------
+    DeckError : with every problem of the file, its line and the words at fault.
+    """
+    source = read_source(path)
+    form = FORMATS[_suffix_of(source)]
+    read: Callable[[Source, Findings], Imported] = import_module(form.module).read
+    return read(source, Findings(source, permissive=permissive))
+
+
+def _suffix_of(source: Source) -> str:
+    """Find the format by the contents; the suffix must not contradict."""
+    suffix = os.path.splitext(source.file)[1].lower()
+    number, first = next(((i, x) for i, x in enumerate(source.lines, 1) if x.strip()), (1, ""))
+    found = next((s for s, form in FORMATS.items() if re.match(form.opening, first.strip())), None)
+    if found is not None and (found == suffix or suffix not in FORMATS):
+        return found
+    if found is not None:
+        text = f"the name ends in {suffix}, but this is a {FORMATS[found].name}; call it *{found}"
+    elif suffix in FORMATS:
+        text = f"this is no {FORMATS[suffix].name}"
+    else:
+        known = ", ".join(f"{form.name} ({end})" for end, form in FORMATS.items())
+        text = f"this is no file of a known format: {known}"
+    raise DeckError([Problem(Place(source.file, number), text, source.marker(number))])

@@ -1,0 +1,89 @@
+"""What an importer finds while it reads: problems, omissions, assumptions, comments."""
+
+from pathlib import Path
+
+from trunnion.errors import DeckError, Problem
+from trunnion.formats.imported import Imported, Note
+from trunnion.formats.source import Source
+from trunnion.model import Model, Place
+from trunnion.origin import Assumption, LeftOut, Origin
+
+MOST = 10_000  # problems, omissions, assumptions or comments of each kind that are kept
+
+
+class Findings:
+    """Collects everything that an import has to say; raises all problems at once.
+
+    Parameters
+    ----------
+    permissive : what cannot be represented is listed and left out, else it is a problem.
+    """
+
+    def __init__(self, source: Source, *, permissive: bool = False) -> None:
+        self.source = source
+        self.permissive = permissive
+        self.problems: list[Problem] = []
+        self.left_out: list[LeftOut] = []
+        self.assumed: list[Assumption] = []
+        self.notes: list[Note] = []
+
+    def place(self, line: int) -> Place:
+        """Place of a line of the file (from 1), for records of the model."""
+        return Place(self.source.file, line)
+
+    def fault(self, line: int, text: str, columns: tuple[int, int] | None = None) -> None:
+        """Note an error; `columns` (first, last+1, from 0) are underlined in the line."""
+        if len(self.problems) < MOST:
+            marker = self.source.marker(line, columns) if line else ""
+            self.problems.append(
+                Problem(self.place(line) if line else self.source.file, text, marker)
+            )
+
+    def leave_out(self, line: int, element: str, feature: str) -> None:
+        """Note something that a model cannot represent: an error unless permissive.
+
+        Parameters
+        ----------
+        element : "element 30-40", "node 50".
+        feature : what it is, and what the model does instead: "expansion joint; taken as pipe".
+        """
+        if not self.permissive:
+            self.fault(line, f"{element}: {feature}; --permissive goes on without it")
+        elif len(self.left_out) < MOST:
+            self.left_out.append(LeftOut(element, feature, self._where(line)))
+
+    def assume(self, text: str, line: int = 0) -> None:
+        """Note a choice where the file is silent; the same text is kept once."""
+        entry = Assumption(text, self._where(line) if line else "")
+        if len(self.assumed) < MOST and all(text != old.text for old in self.assumed):
+            self.assumed.append(entry)
+
+    def note(self, record: object, text: str) -> None:
+        """Put a comment above the card of a record of the model."""
+        self.notes.append(Note(record, text))
+
+    def stop(self) -> None:
+        """Raise all problems, if there are any."""
+        if self.problems:
+            raise DeckError(sorted(self.problems, key=_line))
+
+    def finish(self, model: Model, name: str, header: tuple[str, ...] = ()) -> Imported:
+        """Give the result, or raise all problems.
+
+        Parameters
+        ----------
+        name : the format and its version: "CAESAR II neutral file, version 11.0".
+        """
+        self.stop()
+        file = Path(self.source.file).name
+        model.origin = Origin(file, name, tuple(self.left_out), tuple(self.assumed))
+        model.check()
+        return Imported(model, tuple(self.notes), header)
+
+    def _where(self, line: int) -> str:
+        """File without its folder, and line: reports hold nothing of the machine."""
+        return f"{Path(self.source.file).name}:{line}"
+
+
+def _line(problem: Problem) -> int:
+    return getattr(problem.place, "line", 0)

@@ -1,0 +1,43 @@
+"""Where a model came from that was no deck: what of the foreign file is not in it, and guesses.
+
+The reports print this on top: a reader must see at once what the numbers do not contain.
+"""
+
+from trunnion.frozen import frozen
+
+
+@frozen
+class LeftOut:
+    """Something of the file that the model does not have.
+
+    `element` is the user's name of it ("element 30-40", "node 50"), `feature` what is missing
+    there and what the model does instead, `where` the line of the file ("line.cii:210").
+    """
+
+    element: str
+    feature: str
+    where: str
+
+    def __str__(self) -> str:
+        return f"{self.element}: {self.feature} ({self.where})"
+
+
+@frozen
+class Assumption:
+    """A choice made where the file is silent or ambiguous; it holds also without leaving out."""
+
+    text: str
+    where: str = ""
+
+    def __str__(self) -> str:
+        return f"{self.text} ({self.where})" if self.where else self.text
+
+
+@frozen
+class Origin:
+    """The foreign file of a model: name without folder, format with version, what is missing."""
+
+    file: str
+    format: str  # "CAESAR II neutral file, version 11.0"
+    left_out: tuple[LeftOut, ...] = ()
+    assumed: tuple[Assumption, ...] = ()

@@ -1,0 +1,47 @@
+"""The files that a run writes when it is asked: what each needs, and who makes it."""
+
+from collections.abc import Callable, Mapping
+from importlib import import_module
+from pathlib import Path
+
+from trunnion.arrays import Results
+from trunnion.frozen import frozen
+from trunnion.model import Model
+
+Files = dict[Path, bytes]
+
+
+@frozen
+class Output:
+    """One format: the module that makes it, the package that this needs, the extra with that."""
+
+    module: str
+    package: str = ""
+    extra: str = ""
+
+
+OUTPUTS: Mapping[str, Output] = {
+    "h5": Output("trunnion.report.hdf5", "h5py", "hdf5"),
+    "xlsx": Output("trunnion.report.excel", "xlsxwriter", "excel"),
+    "csv": Output("trunnion.report.csv"),
+    "vtu": Output("trunnion.report.vtu", "pyevtk", "vtk"),
+}
+
+
+def missing(name: str) -> str:
+    """Say what is not installed for a format; nothing if all is there."""
+    found = OUTPUTS[name]
+    if found.package:
+        from importlib.util import find_spec
+
+        if find_spec(found.package) is None:
+            say = f"--{name} needs the package {found.package}"
+            return f"{say}: pip install 'trunnion[{found.extra}]'"
+    return ""
+
+
+def further_files(name: str, results: Results, model: Model, folder: Path, stem: str) -> Files:
+    """Make the files of one format, by their places."""
+    make: Callable[[Results, Model, str], dict[str, bytes]]
+    make = import_module(OUTPUTS[name].module).files
+    return {folder / file: content for file, content in make(results, model, stem).items()}
