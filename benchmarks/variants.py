@@ -16,7 +16,11 @@ def measure(scope: Scope) -> list[Row]:
     """A row for each number of processes."""
     rows = []
     for jobs in (1, 2):
-        job = {"task": "variants", "jobs": jobs, "vary": study.VARY if scope.name == "full" else FEW}
+        job = {
+            "task": "variants",
+            "jobs": jobs,
+            "vary": study.VARY if scope.name == "full" else FEW,
+        }
         rows.append({"deck": study.DECK.stem, **once(job, scope.patience)})
     return rows
 
@@ -26,9 +30,7 @@ def task(job: Job) -> Callable[[], Reply]:
     model = trunnion.read(study.DECK)
 
     def run() -> Reply:
-        row = study.timed(
-            model, "FRIC1", list(job["vary"]), jobs=job["jobs"], warm=False, n=3
-        )
+        row = study.timed(model, "FRIC1", list(job["vary"]), jobs=job["jobs"], warm=False, n=3)
         work = row.pop("work")
         return {**row, "analyse": work["analyse"], "factorise": work["factorise"]}
 
