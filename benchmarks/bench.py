@@ -2,9 +2,9 @@
 
     benchmarks/bench.py [--scope quick|full] [-o FOLDER] [--only PART ...] [--docs]
 
-Parts: racks, passes, sweeps, many, variants, whole, time_spent, million (only where it is named).  Parts
-that are not run keep the tables they have.  With --docs the folder is docs/benchmarks, and
-docs/benchmarks.md and the README's table are written anew from it.
+Parts: racks, passes, sweeps, many, variants, whole, time_spent, and million only where it is named;
+`none` measures nothing.  Parts that are not run keep the tables they have.  With --docs the folder
+is docs/benchmarks, and docs/benchmarks.md and the README's table are written anew from it.
 """
 
 import argparse

@@ -9,8 +9,8 @@ from store import duration, length, load, markdown, nodes, times
 from targets import Tables, find, targets
 
 FILES = (
-    "racks", "million", "tolerances", "passes", "sweep_kp", "sweep_kf", "sweep_steps", "many", "variants",
-    "whole", "reading", "time_spent",
+    "racks", "million", "tolerances", "passes", "sweep_kp", "sweep_kf", "sweep_steps", "many",
+    "variants", "whole", "reading", "time_spent",
 )  # fmt: skip
 TITLES = {
     "floor": "floor",
