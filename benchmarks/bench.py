@@ -67,7 +67,8 @@ def main() -> int:
     args = parser.parse_args()
     folder = page.DOCS if args.docs else args.output
     folder.mkdir(parents=True, exist_ok=True)
-    scope = (quick if args.scope == "quick" else full)(folder)
+    references = page.ROOT / "build" / "references"
+    scope = (quick if args.scope == "quick" else full)(references)
     begin = time.monotonic()
     for part in args.only or [name for name in PARTS if name != "million"]:
         if part == "none":
@@ -80,13 +81,15 @@ def main() -> int:
         machine.save(machine.note(args.scope), folder)
     found = tables.read(folder)
     store.save(targets.targets(found), folder / "targets.csv")
-    tables.write(folder, found, machine.load(folder))
     pictures.draw(folder, found)
-    (folder / "report.md").write_text(page.render(folder, ""))
     if args.docs:
         page.refresh_docs()
+    else:
+        tables.write(folder, found, machine.load(folder))
+        (folder / "report.md").write_text(page.render(folder, ""))
     say(tables.target_table(found))
-    say(f"{time.monotonic() - begin:.0f} s; read {os.path.relpath(folder / 'report.md')}")
+    report = page.PAGE if args.docs else folder / "report.md"
+    say(f"{time.monotonic() - begin:.0f} s; read {os.path.relpath(report)}")
     return 0
 
 

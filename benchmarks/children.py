@@ -110,8 +110,8 @@ def side_by_side(
 
     Returns
     -------
-    The last reply of each job with `seconds` replaced by the median over its runs, `runs`,
-    `fastest` and `slowest`; or `failure` and `kind`.
+    The last reply of each job with the peak memory of its first, `seconds` replaced by the median
+    over its runs, `runs`, `fastest` and `slowest`; or `failure` and `kind`.
     """
     children = [Child(job, limit) for job, limit in zip(jobs, limits, strict=True)]
     times: list[list[float]] = [[] for _ in jobs]
@@ -125,6 +125,8 @@ def side_by_side(
                 continue  # what has failed fails the same way again
             reply = child.ask()
             if reply:
+                if turn > 0:  # later runs find the memory of earlier ones in use
+                    reply["peak_mb"] = replies[i].get("peak_mb", 0.0)
                 replies[i] = reply
                 times[i].append(float(reply.get("seconds", 0.0)))
     for i, child in enumerate(children):

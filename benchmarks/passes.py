@@ -13,6 +13,7 @@ from experiment import Row, Scope
 from inside import Passes, accepting, watched
 from programs.own import arrays
 from rack_line import rack_line
+from racks import reference
 from worker import Job, Reply
 
 from trunnion.arrays import CaseResult
@@ -30,9 +31,10 @@ def measure(scope: Scope) -> tuple[list[Row], list[Row]]:
     tolerances: list[Row] = []
     curves: list[Row] = []
     for n in sizes:
+        path = reference(scope, n, "fric1").get("path")
         for iteration in ("newton", "status"):
-            job = {"task": "passes", "n": n, "case": "fric1", "iteration": iteration}
-            job["reference"] = str(scope.folder / "reference" / f"rack_{n}_fric1.npy")
+            job: Job = {"task": "passes", "n": n, "case": "fric1", "iteration": iteration}
+            job["reference"] = path
             # the status iteration may take its 10 000 passes at every tolerance
             reply = once(job, 8 * scope.limit)
             if "failure" in reply:

@@ -11,8 +11,6 @@ GIVE_UP = 2  # sizes in a row at which a program fails before larger ones are le
 
 def measure(scope: Scope) -> list[Row]:
     """All points; a row for each size, case and program."""
-    folder = scope.folder / "reference"
-    folder.mkdir(parents=True, exist_ok=True)
     rows: list[Row] = []
     failed: dict[tuple[str, str], list[int]] = {}
     for n in scope.sizes:
@@ -21,13 +19,17 @@ def measure(scope: Scope) -> list[Row]:
     return rows
 
 
+def reference(scope: Scope, n: int, case: str) -> Reply:
+    """Make the answer to compare with; its `path` and `kind`."""
+    scope.references.mkdir(parents=True, exist_ok=True)
+    job = {"task": "reference", "n": n, "case": case, "folder": str(scope.references)}
+    return once(job, scope.patience)
+
+
 def _point(
     scope: Scope, n: int, case: str, failed: dict[tuple[str, str], list[int]]
 ) -> Iterable[Row]:
-    made = once(
-        {"task": "reference", "n": n, "case": case, "folder": str(scope.folder / "reference")},
-        scope.patience,
-    )
+    made = reference(scope, n, case)
     programs = ["floor", *OURS, *PEERS]
     tried = [p for p in programs if len(failed.get((p, case), [])) < GIVE_UP]
     jobs = [
