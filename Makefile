@@ -2,6 +2,7 @@
 #   make demo     solve two piping systems, reports in demo/
 #   make test     every test                        (make test ARGS="-k friction -x")
 #   make lint     ruff, mypy, fortitude
+#   make stress   thousands of extreme scenes    (make stress N=20000; goes on where it stopped)
 #   make bench    time, error and memory, peers, sweeps: tables and pictures in build/bench
 #                 (bench-quick, bench-docs, bench-million, bench-peers; OUT=folder ONLY="racks whole")
 BIN := .venv/bin
@@ -17,8 +18,10 @@ DEMO := b313_s302 hot_header
 OUT := build/bench
 ONLY :=
 ARGS :=
+N := 20000
 
-.PHONY: demo test lint bench bench-quick bench-docs bench-million bench-peers debug-test build clean
+.PHONY: demo test stress lint debug-test build clean
+.PHONY: bench bench-quick bench-docs bench-million bench-peers
 
 demo: build
 	@mkdir -p demo
@@ -31,28 +34,30 @@ demo: build
 test: build
 	@$(BIN)/pytest $(ARGS)
 
+stress: build
+	@$(BIN)/python tests/stress/long.py $(N) build/stress
+
 lint: $(READY)
 	@failed=0; for check in "ruff check ." "ruff format --check ." mypy "fortitude check fortran"; do \
 	    $(BIN)/$$check || failed=1; \
 	done; exit $$failed
 
-BENCH = $(BIN)/python benchmarks/bench.py $(if $(ONLY),--only $(ONLY))
+# OUT=docs/benchmarks refreshes docs/benchmarks.md and the README, too.
+BENCH = $(BIN)/python benchmarks/bench.py $(if $(filter docs/benchmarks,$(OUT)),--docs,-o $(OUT))
+bench-docs: OUT := docs/benchmarks
 
-bench: build
-	@$(BENCH) -o $(OUT)
+bench bench-docs: build
+	@$(BENCH) $(if $(ONLY),--only $(ONLY))
 
 bench-quick: build
-	@$(BENCH) --scope quick -o $(OUT)
-
-bench-docs: build
-	@$(BENCH) --docs
+	@$(BENCH) --scope quick $(if $(ONLY),--only $(ONLY))
 
 bench-million: build
-	@$(BIN)/python benchmarks/bench.py --only million $(if $(filter docs,$(OUT)),--docs,-o $(OUT))
+	@$(BENCH) --only million
 
 bench-peers: build
 	@$(BIN)/pip install --quiet --disable-pip-version-check --no-build-isolation \
-	    --config-settings=build-dir=build/editable --editable '.[bench,dask,excel,hdf5,pandas,peers,vtk]'
+	    --config-settings=build-dir=build/editable --editable '.[peers]'
 
 # The debug build keeps its own directory; only what the Fortran tests need is built in it.
 debug-test: $(READY)

@@ -65,6 +65,8 @@ def main() -> int:
     parser.add_argument("--only", nargs="+", choices=(*PARTS, "none"), metavar="PART")
     parser.add_argument("--docs", action="store_true", help="refresh docs and README")
     args = parser.parse_args()
+    if args.docs and args.scope == "quick":
+        parser.error("the docs hold the full run")
     folder = page.DOCS if args.docs else args.output
     folder.mkdir(parents=True, exist_ok=True)
     references = page.ROOT / "build" / "references"
