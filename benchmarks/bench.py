@@ -79,7 +79,11 @@ def main() -> int:
         for name, rows in PARTS[part](scope).items():
             store.save(rows, folder / f"{name}.csv")
         say(f"{part}: {time.monotonic() - start:.0f} s")
-    if args.only != ["none"]:
+    kept = machine.load(folder)
+    if args.only and kept:
+        kept |= {f"commit of {part}": machine.commit() for part in args.only if part in PARTS}
+        machine.save(kept, folder)
+    else:
         machine.save(machine.note(args.scope), folder)
     found = tables.read(folder)
     store.save(targets.targets(found), folder / "targets.csv")
