@@ -32,6 +32,11 @@ class Format:
 
 #: by suffix; commands.shared.FOREIGN lists the same suffixes
 FORMATS: dict[str, Format] = {
+    ".xml": Format(
+        "CAESAR II input XML",
+        "trunnion.formats.caesar_xml",
+        r"(?i)<(\?xml|!--|!DOCTYPE|CAESARII)",
+    ),
     ".pcf": Format(
         "PCF (Isogen piping component file)",
         "trunnion.formats.pcf",

@@ -93,7 +93,9 @@ class Children:
         """Tell whether a code only makes sense in the guide's list (1 ANC, 8 GUI, 9 LIM, 14 +Y)."""
         return not any(cosines) if code == 1 else any(cosines)
 
-    def _known(self, tag: Tag, node: int, code: int, cosines: tuple[float, float, float]) -> Restraint:
+    def _known(
+        self, tag: Tag, node: int, code: int, cosines: tuple[float, float, float]
+    ) -> Restraint:
         n, units = self.numbers, self.units
         turning = code in ROTATIONAL
         stiffness = n.get(tag, "STIFFNESS")
@@ -163,7 +165,9 @@ class Children:
             return None
         cold, constant = n.of(tag, "COLD_LOAD"), n.of(tag, "CONST_EFF_LOAD")
         if cold > 0.0 and constant <= 0.0:
-            text = "spring hanger that is given: its rate is not in the XML (the neutral file has it)"
+            text = (
+                "spring hanger that is given: its rate is not in the XML (the neutral file has it)"
+            )
             self.findings.leave_out(tag.line, f"node {node}", f"{text}; taken as one to design")
             cold = 0.0
         return HangerData(

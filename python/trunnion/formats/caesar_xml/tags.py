@@ -7,6 +7,8 @@ program writes.
 from dataclasses import dataclass, field
 from xml.parsers import expat
 
+import numpy as np
+
 from trunnion.formats.findings import Findings
 
 MAX_DEPTH = 6
@@ -92,6 +94,12 @@ def _fault(findings: Findings, line: int, column: int, text: str) -> None:
     findings.fault(min(max(line, 1), len(findings.source.lines) or 1), text, (column, column + 1))
 
 
+def _single(value: float, text: str) -> float:
+    """Undo the program's single precision: 88.900002 is 88.9, if it is just that in 32 bits."""
+    single = np.float32(value)
+    return float(str(single)) if f"{single:.6f}" == text else value
+
+
 class Numbers:
     """Reads numbers of tags; None is a blank; what is no number is a fault with its place."""
 
@@ -115,7 +123,7 @@ class Numbers:
         if abs(value) > 1e18:
             self.fault(tag, f'{name}="{text[:40]}" is too large')
             return None
-        return value
+        return _single(value, text)
 
     def of(self, tag: Tag, name: str, usual: float = 0.0) -> float:
         """Value of an attribute, or what a blank means."""

@@ -134,17 +134,18 @@ class Resolver:
             what = f"bore {bore:g} is no nominal size" if bore else "it has no bore"
             self._once(part, "OD", bore, f"{what}; give OD and WALL in the side table (--table)")
             od = 0.1
+        schedule = None if schedule is None else str(schedule).upper()
         if wall is None and schedule is None:
             said = f"wall of bore {bore or 0.0:g} is not in the file"
             self._missing(part, "WALL", bore, said, f"schedule {DEFAULT_SCHEDULE}")
             schedule = DEFAULT_SCHEDULE
-        if wall is None:
+        if wall is None and schedule is not None:
             wall = self._scheduled(part, inches, schedule)
-        elif not 0.0 < wall <= 0.5 * od:
+        elif wall is not None and not 0.0 < wall <= 0.5 * od:
             text = f"wall {1e3 * wall:g} mm does not fit OD {1e3 * od:g} mm"
             self._once(part, "WALL", bore, text)
         standard = wall is not None and schedule is not None and "OD" not in values
-        size = (f"{inches:g}", schedule.upper()) if standard and inches else (None, None)
+        size = (f"{inches:g}", schedule) if standard and inches else (None, None)
         wall = min(_FALLBACK, 0.25 * od) if wall is None else wall
         return self._named((od, wall, *(float(values.get(k, 0.0)) for k in _COVERS)), size, part)
 
