@@ -32,6 +32,7 @@ class Format:
 
 #: by suffix; commands.shared.FOREIGN lists the same suffixes
 FORMATS: dict[str, Format] = {
+    ".cii": Format("CAESAR II neutral file", "trunnion.formats.caesar", r"#\$"),
     ".xml": Format(
         "CAESAR II input XML",
         "trunnion.formats.caesar_xml",

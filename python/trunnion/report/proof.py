@@ -56,6 +56,12 @@ def certificate_table(case: CaseResult) -> str:
             f"rigid supports instead of the penalty would change {what} by {value:.1e} "
             "of the largest"
         )
+    if case.digits is not None:
+        left, where = case.digits
+        text += wrapped(
+            f"{left:.0f} digits of the displacements stand against the last bit of the input, "
+            f"fewest at {where}"
+        )
     for name in case.frozen:
         text += wrapped(f"frozen engaged: {name}")
     return text
