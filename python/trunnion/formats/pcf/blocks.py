@@ -8,7 +8,13 @@ is an attribute of the open block.
 from collections.abc import Iterator
 
 from trunnion.formats.findings import Findings
-from trunnion.formats.pcf.words import ATTRIBUTE_ONLY, COMPONENTS, OPENERS
+from trunnion.formats.pcf.words import (
+    ATTRIBUTE_ONLY,
+    COMPONENTS,
+    HEADERS,
+    OPENERS,
+    PIPELINE_WORDS,
+)
 from trunnion.formats.source import Source
 from trunnion.frozen import frozen
 
@@ -71,7 +77,8 @@ def _opens(
 ) -> bool:
     """Tell whether a line opens a block."""
     if not deep and indented:
-        return True
+        head = last is not None and last[0].name in HEADERS
+        return not (head and row.name.startswith(PIPELINE_WORDS) and row.name not in OPENERS)
     if indented or deep:
         # an indented component of a writer that indents everything: it has no value, and the
         # open block has its points already

@@ -234,7 +234,7 @@ def overlaps(net: Network, tolerance: float) -> tuple[list[tuple[Run, Run]], lis
             same = next((r for r in mine if abs(dot(unit(net.delta(r)), way)) > PARALLEL), None)
             if same is not None:
                 pairs.append((same, other))
-            elif node in net.open_ends:
+            elif node in net.open_ends and not any(node == n for n, _ in branches[-1:]):
                 hit = Hit(-1, number, float(along[number]), float(far[number]))
                 branches.append((node, hit))
     return pairs, branches

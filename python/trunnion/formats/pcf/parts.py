@@ -142,7 +142,7 @@ def read_line(found: list[Block], findings: Findings) -> Line:
             pipelines.append(block.value)
         elif word in HEADERS or word.startswith(("UNITS-", "ITEM-")) or in_materials:
             continue
-        elif word in ENDS:
+        elif word in ENDS or word.startswith(("END-POSITION-", "END-CONNECTION-")):
             at = _points(block, ("CO-ORDS", "END-POINT"), units.length, findings)
             reference = block.get("CONNECTION-REFERENCE") or block.value
             ends += [(word, point, reference) for point in at[:1]]

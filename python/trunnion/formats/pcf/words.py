@@ -23,6 +23,7 @@ SHAPES: dict[str, str] = {
     **dict.fromkeys(("FLANGE-BLIND", "CAP", "PLUG"), "closed"),
     **dict.fromkeys(("GASKET", "SPACER"), "gasket"),
     **dict.fromkeys(("COUPLING", "UNION", "CLAMP", "LAPJOINT-STUBEND"), "fitting"),
+    "BUSHING": "fitting",
     **dict.fromkeys(("LAPJOINT-RING", "NIPPLE", "CONNECTOR", "LENGTH"), "fitting"),
     **dict.fromkeys(("MISC-COMPONENT", "MISC-COMPONENT-RETURN", "TUBE"), "rigid"),
     "MISC-COMPONENT-ANGLE": "angle",
@@ -30,13 +31,16 @@ SHAPES: dict[str, str] = {
     **dict.fromkeys(("SUPPORT", "HANGER"), "support"),
     "ANCHOR": "anchor",
     **dict.fromkeys(("BOLT", "FLOOR-SYMBOL", "FLOW-ARROW", "LOCATION-POINT"), "mark"),
-    **dict.fromkeys(("INSULATION-SYMBOL", "SPLIT-POINT", "OPERATOR"), "mark"),
+    **dict.fromkeys(("INSULATION-SYMBOL", "SPLIT-POINT", "ISO-SPLIT-POINT"), "mark"),
+    **dict.fromkeys(("OPERATOR", "WALL-SYMBOL", "DIMENSION", "TEXT", "GRID-REFERENCE"), "mark"),
+    **dict.fromkeys(("REINFORCEMENT-PAD", "REFERENCE-ANCHOR", "SKETCH-POINT"), "mark"),
     **dict.fromkeys(("START-POINT", "STOP-POINT", "SCREWED-CONNECTION"), "mark"),
     **dict.fromkeys(("PIPE-SUPPORT-SYMBOL", "REFERENCE-DIMENSION"), "mark"),
 }
 
 COMPONENTS = frozenset(SHAPES)
 
+#: any END-POSITION-.. and END-CONNECTION-.. is an end; these are seen
 ENDS = (
     "END-POSITION-OPEN",
     "END-POSITION-NULL",
@@ -59,7 +63,14 @@ MESSAGES = ("MESSAGE-SQUARE", "MESSAGE-CIRCLE", "MESSAGE-ROUND", "MESSAGE-DIAMON
 OPENERS = COMPONENTS | {*ENDS, *HEADERS, *MESSAGES}
 
 #: names of components that are attributes wherever nothing is indented
-ATTRIBUTE_ONLY = frozenset(("LENGTH", "OPERATOR", "TUBE", "CONNECTOR", "ANCHOR-TYPE"))
+ATTRIBUTE_ONLY = frozenset(("LENGTH", "OPERATOR", "TUBE", "CONNECTOR", "TEXT", "DIMENSION"))
+
+#: beginnings of what belongs to the pipeline, also where a writer does not indent it
+PIPELINE_WORDS = (
+    *("PROJECT-", "DATE-", "AREA", "REVISION", "ATTRIBUTE", "PIPING-SPEC", "PIPELINE-TEMP"),
+    *("PIPELINE-TYPE", "NOMINAL-CLASS", "INSULATION-SPEC", "TRACING-SPEC", "PAINTING-SPEC"),
+    *("MISC-SPEC", "JACKET-SPEC", "SPOOL-", "BEND-RADIUS", "START-CO-ORDS", "FLUID", "DESIGN-"),
+)
 
 
 def shape_of(keyword: str) -> str | None:
