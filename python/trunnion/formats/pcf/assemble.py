@@ -69,12 +69,12 @@ def assemble(
     masses : components without length and the node that carries them.
     first : nodes to start the walk from.
     """
-    radii = settle(net)
     made: list[tuple[Run, Properties]] = []
     for run in net.runs:
         made.append((run, resolver.properties(run.part, run.ends[0])))
     keep = {node for _, node in masses} | {*net.open_ends, *first}
     runs, gone = merge_tangents(net, _one_operation(made), keep)
+    radii = settle(net, runs)
     way = walk(net, runs, gone, attached.middles, circles, first)
     _add_pipes(model, net, way, attached, resolver, findings)
     line = Line(model, {}, net)
@@ -143,7 +143,7 @@ def _add_pipes(
             what.material,
             what.operation,
             rigid=stiff,
-            weight=weights.get(part.line, 0.0) * run.share if stiff and body else 0.0,
+            weight=round(weights.get(part.line, 0.0) * run.share, 9) if stiff and body else 0.0,
             place=findings.place(part.line),
         )
         if run.kind == "reducer":

@@ -1,6 +1,7 @@
 """Olets and supports find their place on the network; runs are split there, bends get a middle."""
 
 from dataclasses import dataclass, field
+from math import inf
 
 from trunnion.formats.findings import Findings
 from trunnion.formats.pcf.network import Hit, Network, Places, Run, split
@@ -92,13 +93,12 @@ def attach_supports(
     places = Places(net)
     hits: list[Hit] = []
     placed: list[Part] = []
-    largest = max((outside(run.part) for run in net.runs), default=0.0)
     for part in parts:
         point = part.at or part.centre or (part.ends[0] if part.ends else None)
         if point is None:
             findings.fault(part.line, f"{part.name}: a support has CO-ORDS")
             continue
-        hit = places.on_runs(point.xyz, 0.5 * largest + SLACK, tolerance, _ALL)
+        hit = places.on_runs(point.xyz, inf, tolerance, _ALL)
         reach = tolerance
         if hit.run >= 0:
             reach = 0.5 * outside(net.runs[hit.run].part) + SLACK

@@ -9,37 +9,52 @@ from math import acos, tan
 
 from trunnion.formats.pcf.network import Network, Run
 from trunnion.formats.pcf.properties import Properties
+from trunnion.formats.pcf.shapes import UNEQUAL
 from trunnion.system.vectors import add, cross, dot, scale, size, sub, unit
 
+Made = tuple[Run, Properties]
 OFF_LINE = 2e-4  # a tangent and a pipe that miss one line by less are one [m]
 
 
-def settle(net: Network) -> dict[int, float]:
-    """Move the ends of bends along their tangents until both are equal; give the radii [m]."""
-    at = net.at()
+def settle(net: Network, runs: list[Made]) -> dict[int, float]:
+    """Make both tangents of each bend equal; give the radii [m].
+
+    A joint that stands at the end of a bend moves along the tangent.  Two bends that meet share
+    the way between them: the second takes what the first has left.
+    """
+    ways: dict[int, list[int]] = {}
+    for run, _ in runs:
+        for node, other in ((run.a, run.b), (run.b, run.a)):
+            if node in net.bends:
+                ways.setdefault(node, []).append(other)
     fixed: set[int] = set()
+    tangents: dict[int, float] = {}
     radii: dict[int, float] = {}
-    for centre in net.bends:
-        c = net.xyz[centre]
-        ends = [_other(net.runs[i], centre) for i in at.get(centre, ())][:2]
-        if len(ends) < 2:
+    for centre, form in net.bends.items():
+        others = ways.get(centre, ())
+        if len(others) != 2:
             continue
-        ways = [unit(sub(net.xyz[n], c)) for n in ends]
-        lengths = [size(sub(net.xyz[n], c)) for n in ends]
-        held = [length for n, length in zip(ends, lengths, strict=True) if n in fixed]
-        tangent = min(held) if held else min(lengths)
-        for n, way in zip(ends, ways, strict=True):
-            if n not in fixed:
-                net.xyz[n] = add(c, scale(tangent, way))
+        c = net.xyz[centre]
+        tangent = min(size(sub(port.xyz, c)) for port in form.ports)
+        for n in others:
+            length = size(sub(net.xyz[n], c))
+            left = length - tangents.get(n, 0.0)
+            if (n in fixed or n in tangents) and abs(left - tangent) <= 2.0 * UNEQUAL:
+                tangent = left
+        tangents[centre] = tangent
+        for n in others:
+            to = sub(net.xyz[n], c)
+            if n not in fixed and n not in net.bends and size(to) <= tangent + 2.0 * UNEQUAL:
+                net.xyz[n] = add(c, scale(tangent, unit(to)))
                 fixed.add(n)
-        turn = acos(max(-1.0, min(1.0, -dot(*ways))))
+        turn = acos(max(-1.0, min(1.0, -dot(*(unit(sub(net.xyz[n], c)) for n in others)))))
         radii[centre] = tangent / tan(0.5 * turn)
     return radii
 
 
 def merge_tangents(
-    net: Network, runs: list[tuple[Run, Properties]], keep: set[int]
-) -> tuple[list[tuple[Run, Properties]], dict[int, int]]:
+    net: Network, runs: list[Made], keep: set[int]
+) -> tuple[list[Made], dict[int, int]]:
     """Let pipes run to the intersection of the tangents, as a deck has them.
 
     Parameters
@@ -51,7 +66,7 @@ def merge_tangents(
     -------
     The runs that are left, and of each joint that is gone the bend whose near or far point it is.
     """
-    kept: list[tuple[Run, Properties] | None] = list(runs)
+    kept: list[Made | None] = list(runs)
     at: dict[int, set[int]] = {}
     for i, (run, _) in enumerate(runs):
         at.setdefault(run.a, set()).add(i)
