@@ -205,7 +205,7 @@ def test_a_chain_of_near_ends_is_not_one_joint(load):
 
 def test_pipes_on_each_other_are_refused(load):
     text = HEADER + pipe((0, 0, 0), (1000, 0, 0)) + pipe((900, 0, 0), (3000, 0, 0))
-    with pytest.raises(DeckError, match="overlaps PIPE of line 1[03]: an end of one"):
+    with pytest.raises(DeckError, match=r"overlaps PIPE of line 1[03]: an end of one"):
         load(text)
 
 

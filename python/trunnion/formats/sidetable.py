@@ -31,7 +31,7 @@ KEYS: dict[str, str] = {
     **{"OD": "length", "WALL": "length", "SCH": "text", "MATERIAL": "text"},
     **{"FLUID": "density", "INSULATION": "length", "INSULATION_DENSITY": "density"},
     **{"LINING": "length", "LINING_DENSITY": "density", "CORROSION": "length"},
-    **{"WEIGHT": "weight", "RADIUS": "length", "RIGID": "yes or no", "TREF": "temperature"},
+    **{"WEIGHT": "weight", "TREF": "temperature"},
     **{f"T{n}": "temperature" for n in SETS},
     **{f"P{n}": "pressure" for n in SETS},
 }
@@ -109,8 +109,6 @@ def value_of(key: str, value: Any, *, where: str = "") -> Any:
     dimension = KEYS[key]
     if dimension == "text":
         return va.text(value) if not isinstance(value, (int, float)) else f"{value:g}"
-    if dimension == "yes or no":
-        return value if isinstance(value, bool) else va.choice(value, ("NO", "YES")) == "YES"
     if dimension == "weight":
         return _weight(value)
     found = va.number(value, un.scales(UNITS)[dimension], dimension)

@@ -116,7 +116,7 @@ class Resolver:
             words = text.split()
             number = plain(words[0])
             wordy = number is None and not words[0][:1].isdigit()
-            if key not in ("MATERIAL", "SCH", "RIGID") and (wordy or abs(number or 0.0) > LARGEST):
+            if key not in ("MATERIAL", "SCH") and (wordy or abs(number or 0.0) > LARGEST):
                 continue  # a placeholder is no value
             try:
                 found[key] = value_of(key, "".join(words))
