@@ -11,9 +11,9 @@ import numpy as np
 from trunnion.arrays import F8, CaseResult, Certificate, Results, System
 from trunnion.model import Model
 from trunnion.report.encode import dump, finite, lines, listing, records, rows, short, words
+from trunnion.report.hangers import selection_entries
 from trunnion.report.json_modes import mode_entries
 from trunnion.report.json_runs import cycle_entries, envelope_entries, frozen_entries
-from trunnion.report.json_spread import spread_entries
 from trunnion.report.json_supports import support_entries
 from trunnion.report.json_winds import wind_entries
 from trunnion.report.origin import origin_entry
@@ -41,9 +41,13 @@ def json_report(results: Results, model: Model | None = None) -> bytes:
     if results.cycles:
         parts["cycles"] = cycle_entries(results)
     if results.spreads:
+        from trunnion.report.json_spread import spread_entries
+
         parts["spread"] = spread_entries(results)
     if model is not None and model.winds:
         parts["winds"] = wind_entries(model, results.system)
+    if results.hangers:
+        parts["hangers"] = selection_entries(results.hangers)
     parts["modes"] = dump({"frequency_hz": []})
     if results.modes is not None:
         parts["modes"] = mode_entries(results.modes, results.system)

@@ -8,13 +8,13 @@ from trunnion.report.columns import PAGE, chapter, section, wrapped
 from trunnion.report.dynamics import modes_text
 from trunnion.report.echo import input_echo
 from trunnion.report.frozen import frozen_table, frozen_warning
+from trunnion.report.hangers import selection_table
 from trunnion.report.loops import cycle_report, cycle_warnings
 from trunnion.report.modes import mode_report, mode_warnings
 from trunnion.report.origin import origin_text
 from trunnion.report.points import middle_table, sag_table, stress_table
 from trunnion.report.proof import balance_table, certificate_table, history_table, ledger_table
 from trunnion.report.restraints import restraint_summary
-from trunnion.report.spread import spread_report
 from trunnion.report.states import state_table
 from trunnion.report.summary import summary_table
 from trunnion.report.units import ReportUnits, report_units
@@ -45,6 +45,8 @@ def text_report(results: Results, model: Model) -> bytes:
     parts.append(chapter("3  LOADS ON RESTRAINTS"))
     names = {c.name for c in own if c.about}
     increments = [case.name for case in good if case.name in names]
+    if results.hangers:
+        parts.append(selection_table(results.hangers, not model.spring_sizes, units))
     parts.append(restraint_summary(good, units, increments))
     parts.append(chapter("4  RESULTS BY CASE"))
     parts.append(wrapped(CERTIFIED, "") if results.cases else "\n  none\n")
@@ -57,6 +59,8 @@ def text_report(results: Results, model: Model) -> bytes:
     if results.cycles:
         more["CYCLES"] = [cycle_report(cycle, units) for cycle in results.cycles.values()]
     if results.spreads:
+        from trunnion.report.spread import spread_report
+
         more["OTHER ANSWERS"] = [spread_report(s, results, units) for s in results.spreads.values()]
     for number, (title, texts) in enumerate(more.items(), 5):
         parts += [chapter(f"{number}  {title}"), *texts]
