@@ -79,7 +79,7 @@ def test_sections_materials_and_operation(version):
     header, branch = model.sections.values()
     assert (header.od, header.wall, header.corrosion) == (273.05 / 1e3, 9.271 / 1e3, 0.0015)
     assert (header.fluid, header.insulation, header.insulation_density) == (850.0, 0.075, 140.0)
-    assert (branch.od, branch.wall, branch.insulation) == (0.1143, 0.00602, 0.0)
+    assert (branch.od, branch.wall, branch.insulation) == (114.3 / 1e3, 6.02 / 1e3, 0.0)
     carbon, stainless = model.materials.values()
     assert (carbon.name, carbon.grade) == ("A106-B", "A106-B")
     assert (carbon.nu, carbon.density) == (0.292, 7833.44)
