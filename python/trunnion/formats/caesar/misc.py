@@ -1,5 +1,6 @@
 """MISCEL_1 (materials, nozzles, hangers, options) and COORDS."""
 
+from trunnion.formats.caesar.auxiliary import FREE
 from trunnion.formats.caesar.job import HangerData, Nozzle, Vec
 from trunnion.formats.caesar.sections import Section, Skeleton
 from trunnion.formats.caesar.text import Columns
@@ -61,6 +62,7 @@ def _hangers(
 ) -> tuple[HangerData, ...]:
     """Read the defaults, the nodes, the values of each hanger, and four lists of integers."""
     rows = -(-n // 6)
+    cold = columns.integers(at + 1, 5)[1] == 1
     nodes = _list(columns, at + 2, n)
     first = at + 2 + rows
     each = 4 if strings else 2
@@ -81,6 +83,9 @@ def _hangers(
                 hot_load=clean(v[5] * units.force),
                 constant=clean(v[10] * units.force) if strings else 0.0,
                 variation=v[1] or 25.0,
+                rod=max(0.0, clean(v[2] * units.length)),
+                most=clean(v[7] * units.length) if 0.0 < v[7] < FREE - 0.01 else None,
+                cold_design=cold,
                 number=number[i],
                 cnode=cnode[i],
                 table=table[i],
