@@ -113,7 +113,8 @@ def add_words(
 ) -> int:
     """Add the supports that the words of a side table mean; give their number.
 
-    SPRING without LOAD= is a hanger that the program selects.  ANCHOR and words of TRADE stand for themselves, all else is the rest of a SUPPORT card:
+    SPRING without LOAD= is a hanger that the program selects.  ANCHOR and words of TRADE stand
+    for themselves, all else is the rest of a SUPPORT card:
     "+Z GUIDE GAP=3mm MU=0.3".
 
     Raises
