@@ -1,7 +1,7 @@
 """CAESAR II input XML, versions 7, 11 and 14 (and those between): tags to a `Job`.
 
 The XML is an export, not a save format: reducers, rates of springs, load cases and the vertical
-axis are not in it (docs/caesar_xml.md).  `formats.caesar.build` makes the model.
+axis are not in it (docs/caesar.md).  `formats.caesar.build` makes the model.
 """
 
 from math import isfinite
