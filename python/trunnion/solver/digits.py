@@ -43,7 +43,7 @@ def digits_left(
 
     Every member's end forces are changed by up to one part, with scattered signs, as a change of
     its stiffness by one part would do (rigid motion makes no force, so none is made of it), and
-    so are those that would hold back its free deformation.  What this moves, of the largest
+    so are those that would hold back its free deformation, and the loads at nodes.  What this moves, of the largest
     displacement, is the number of parts that an error of one part in the input costs: a
     structured condition number in the sense of Skeel (1979).
 
@@ -55,7 +55,7 @@ def digits_left(
     -------
     Digits left of the 16 that doubles have, and the freedom that loses most ("node 40 RX").
     """
-    load = np.zeros_like(point.u)
+    load = _scattered(point.u.size, 2).reshape(-1, 6) * forcing.nodal
     for start, at in enumerate((point, Point.zero(structure.n_node))):
         end = structure.residual(at, law, forcing)[1]
         signs = _scattered(len(end), start)
