@@ -74,6 +74,8 @@ def _numbers(case: CaseResult) -> dict[str, str]:
     system, state = case.system, solved(case)
     effect = {name: finite(value) for name, value in case.penalty_effect.items()}
     parts = {"penalty_effect": dump(effect)}
+    if case.digits is not None:
+        parts["digits"] = dump({"left": case.digits, "at": case.digits_at})
     if case.loads is not None and case.linear:
         parts["loads"] = _sum(load_sum(system, case.loads))
         parts["reactions"] = _sum(reaction_sum(case))

@@ -56,6 +56,11 @@ def certificate_table(case: CaseResult) -> str:
             f"rigid supports instead of the penalty would change {what} by {value:.1e} "
             "of the largest"
         )
+    if case.digits is not None:
+        worst = f", fewest at {case.digits_at}" if case.digits_at else ""
+        text += wrapped(
+            f"about {case.digits:.1f} digits of the largest displacement hold after rounding{worst}"
+        )
     for name in case.frozen:
         text += wrapped(f"frozen engaged: {name}")
     return text

@@ -8,6 +8,7 @@ from trunnion.arrays import F8, CaseResult, Certificate, Loads, System
 from trunnion.certificate import certify
 from trunnion.errors import ModelError, Problem
 from trunnion.solver.causes import explain
+from trunnion.solver.digits import FEW
 from trunnion.solver.friction import Solved
 from trunnion.solver.history import History
 from trunnion.solver.mechanism import null_motions, structural_motions
@@ -147,6 +148,7 @@ def _solve(
     result.state, result.converged = reported.state, True
     result.penalty_u, result.penalty_r = reported.penalty_u, reported.penalty_r
     result.penalty_effect = reported.penalty_effect
+    result.digits, result.digits_at = reported.digits.left, reported.digits.at
     result.warnings += tuple(history.notes) + _remarks(structure, reported)
     datum = _all_sliders(structure, reported.state.datum_end)
     return Origin(forcing, point, datum, question.loads, start.lock)
@@ -169,6 +171,12 @@ def _remarks(structure: Structure, reported: Reported) -> tuple[str, ...]:
     if effect > PENALTY_WARNING:
         remarks.append(
             f"rigid supports would change the answer by {100 * effect:.2g} % (penalty effect)"
+        )
+    digits = reported.digits
+    if digits.left < FEW:
+        remarks.append(
+            f"only about {digits.left:.1f} digits of the largest displacement hold, worst at "
+            f"{digits.at}: the model is badly conditioned there"
         )
     turn = np.abs(reported.state.u[:, 3:])
     if turn.size and turn.max() > LARGE_TURN:
