@@ -2,6 +2,7 @@
 #   make demo     solve two piping systems, reports in demo/
 #   make test     every test                        (make test ARGS="-k friction -x")
 #   make lint     ruff, mypy, fortitude
+#   make stress   thousands of extreme scenes    (make stress N=20000; goes on where it stopped)
 #   make bench    the rack lines of benchmarks/     (make bench NODES="50 200" CASES=fric1)
 BIN := .venv/bin
 READY := .venv/.ready
@@ -18,7 +19,9 @@ CASES := lin gap fric1 fric10
 RACKS := tests/data
 ARGS :=
 
-.PHONY: demo test lint bench debug-test build clean
+N := 20000
+
+.PHONY: demo test stress lint bench debug-test build clean
 
 demo: build
 	@mkdir -p demo
@@ -30,6 +33,9 @@ demo: build
 
 test: build
 	@$(BIN)/pytest $(ARGS)
+
+stress: build
+	@$(BIN)/python tests/stress/long.py $(N) build/stress
 
 lint: $(READY)
 	@failed=0; for check in "ruff check ." "ruff format --check ." mypy "fortitude check fortran"; do \

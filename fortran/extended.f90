@@ -7,7 +7,7 @@ module extended
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: add_dd, add_product, two_prod, two_sum
+   public :: add_dd, add_product, divide_dd, multiply_dd, two_prod, two_sum
 
    real(wp), parameter :: splitter = 134217729.0_wp   !! 2**27 + 1
 
@@ -65,5 +65,36 @@ contains
       call two_prod(a, b, p, e)
       call add_dd(hi, lo, p, e + a_low*b)
    end subroutine add_product
+
+   !> (p, p_low) = (a, a_low) (b, b_low).
+   elemental subroutine multiply_dd(a, a_low, b, b_low, p, p_low)
+      real(wp), intent(in) :: a, a_low, b, b_low
+      real(wp), intent(out) :: p, p_low
+
+      real(wp) :: s, e
+
+      call two_prod(a, b, s, e)
+      e = e + (a*b_low + a_low*b)
+      p = s + e
+      p_low = e - (p - s)
+   end subroutine multiply_dd
+
+   !> (q, q_low) = (a, a_low) / (b, b_low).
+   elemental subroutine divide_dd(a, a_low, b, b_low, q, q_low)
+      real(wp), intent(in) :: a, a_low, b, b_low
+      real(wp), intent(out) :: q, q_low
+
+      real(wp) :: r, r_low, p, p_low
+
+      q = a/b
+      call multiply_dd(b, b_low, q, 0.0_wp, p, p_low)
+      r = a
+      r_low = a_low
+      call add_dd(r, r_low, -p, -p_low)
+      q_low = (r + r_low)/b
+      p = q + q_low
+      q_low = q_low - (p - q)
+      q = p
+   end subroutine divide_dd
 
 end module extended

@@ -354,8 +354,8 @@ class CaseResult:
     `state` is None when the case did not converge; `cause` then says why.  `history` has one
     record an iteration; `work` counts analyse, factorise, solve, refine, elements, iterations.
     `penalty_u` (n_node, 6) and `penalty_r` (n_contact, 3) are the first-order corrections to
-    rigid supports; `penalty_effect` their largest relative size.  `digits` decimal digits of the
-    largest displacement hold; most are lost at `digits_at` ("node 40 RX"); None: not estimated.
+    rigid supports; `penalty_effect` their largest relative size.  `digits` are those of the
+    displacements that do not hang on the last bit of the input, and where they are fewest.
     """
 
     name: str
@@ -370,8 +370,7 @@ class CaseResult:
     penalty_effect: dict[str, float] = field(default_factory=dict)
     penalty_u: F8 | None = None
     penalty_r: F8 | None = None
-    digits: float | None = None
-    digits_at: str = ""
+    digits: tuple[float, str] | None = None
     frozen: tuple[str, ...] = ()
     warnings: tuple[str, ...] = ()
     history: list[dict[str, object]] = field(default_factory=list)

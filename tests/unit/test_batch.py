@@ -158,6 +158,26 @@ def test_a_deck_that_a_report_would_overwrite_is_refused(tmp_path, name):
         trunnion.batch([tmp_path / name], tmp_path)
 
 
+def test_files_of_other_programs_come_in_by_their_door(decks, tmp_path, monkeypatch):
+    from types import SimpleNamespace
+
+    import trunnion.formats
+
+    def read_any(path, *, permissive):
+        (tmp_path / f"asked{permissive}").touch()
+        return SimpleNamespace(model=trunnion.read(decks[0]))
+
+    monkeypatch.setattr(trunnion.formats, "is_foreign", lambda path: str(path).endswith(".xyz"))
+    monkeypatch.setattr(trunnion.formats, "read_any", read_any)
+    foreign = tmp_path / "line.xyz"
+    foreign.write_text("of another program")
+    for permissive in (False, True):
+        done = trunnion.batch([foreign], tmp_path / "out", permissive=permissive)
+        assert [(e.status, e.skipped) for e in done.entries] == [("certified", False)]
+        assert (tmp_path / f"asked{permissive}").exists()
+    assert trunnion.batch([foreign], tmp_path / "out", permissive=True)["line"].skipped
+
+
 # ------------------------------------------------------------------ what is not done twice
 def test_finished_decks_are_skipped_and_the_summary_is_the_same(decks, tmp_path):
     trunnion.batch(decks, tmp_path / "out")

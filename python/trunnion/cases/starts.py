@@ -5,12 +5,12 @@ displacements and friction capacities, so every certified answer from it is one 
 """
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 
 import numpy as np
 
 from trunnion.arrays import F8, CaseResult, Loads
 from trunnion.cases.analysis import Start
+from trunnion.frozen import frozen
 
 SEED = 20_260_731  # of the random starts: the same in every run
 STICKS = 1e6  # factor on mu with which everything that presses sticks
@@ -22,7 +22,7 @@ NEVER = 1e9  # a friction capacity that is never reached [N]
 Ask = Callable[[float, F8 | None], CaseResult]  # friction times a factor, first capacities
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@frozen(eq=False)
 class Known:
     """Normal forces (n_slider,) of the case and of its two extremes, None where there is none."""
 

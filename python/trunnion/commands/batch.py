@@ -4,13 +4,22 @@ from pathlib import Path
 
 import click
 
-from trunnion.commands.shared import FOLDER, INTERRUPTED, JOBS, InputError, refuse_unwritable, say
+from trunnion.commands.shared import (
+    FOLDER,
+    INTERRUPTED,
+    JOBS,
+    PERMISSIVE,
+    InputError,
+    refuse_unwritable,
+    say,
+)
 
 
 @click.command()
 @click.argument("decks", nargs=-1, required=True, type=click.Path(path_type=Path))
 @FOLDER
 @JOBS
+@PERMISSIVE
 @click.option("--h5", is_flag=True, help="Write <stem>.h5 too.")
 @click.option("--redo", is_flag=True, help="Solve finished decks again.")
 @click.option("--scheduler", metavar="ADDRESS", help="Solve on the Dask cluster of this scheduler.")
@@ -18,6 +27,7 @@ def batch(
     decks: tuple[Path, ...],
     folder: Path,
     jobs: int | None,
+    permissive: bool,
     h5: bool,
     redo: bool,
     scheduler: str | None,
@@ -48,6 +58,7 @@ def batch(
                 folder,
                 jobs=jobs,
                 h5=h5,
+                permissive=permissive,
                 scheduler=scheduler,
                 redo=redo,
                 told=told,

@@ -21,7 +21,7 @@ FOLDER = click.option(
 PERMISSIVE = click.option(
     "--permissive", is_flag=True, help="Leave out what a model cannot represent, and list it."
 )
-FOREIGN: tuple[str, ...] = ()  # suffixes of files that are no decks: formats.FORMATS
+FOREIGN: tuple[str, ...] = (".cii",)  # suffixes of files that are no decks: formats.FORMATS
 JOBS = click.option(
     "-j", "jobs", type=click.IntRange(1), help="Processes at a time; one a core if not given."
 )

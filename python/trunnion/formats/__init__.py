@@ -29,7 +29,9 @@ class Format:
 
 
 #: by suffix; commands.shared.FOREIGN lists the same suffixes
-FORMATS: dict[str, Format] = {}
+FORMATS: dict[str, Format] = {
+    ".cii": Format("CAESAR II neutral file", "trunnion.formats.caesar", r"#\$"),
+}
 
 
 def is_foreign(path: str | os.PathLike[str]) -> bool:

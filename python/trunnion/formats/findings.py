@@ -62,6 +62,10 @@ class Findings:
         """Put a comment above the card of a record of the model."""
         self.notes.append(Note(record, text))
 
+    def renote(self, old: object, new: object) -> None:
+        """Move the comments of a record to the one that takes its place."""
+        self.notes = [Note(new, n.text) if n.record is old else n for n in self.notes]
+
     def stop(self) -> None:
         """Raise all problems, if there are any."""
         if self.problems:

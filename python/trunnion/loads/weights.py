@@ -13,7 +13,7 @@ RIGID_INSULATION = 1.75  # insulation of a flange or valve, in that of the pipe 
 
 def ring(outside: float, inside: float) -> float:
     """Return the area between two diameters."""
-    return 0.25 * pi * (outside**2 - inside**2)
+    return 0.25 * pi * (outside - inside) * (outside + inside)
 
 
 def line_masses(section: Section, material: Material) -> tuple[float, float, float, float]:

@@ -4,7 +4,6 @@ A value means what the key means on its card, in the units of the deck, with the
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from itertools import product
 
 import numpy as np
@@ -12,6 +11,7 @@ import numpy as np
 from trunnion.deck.fields import fields_of
 from trunnion.deck.values import Reader, WordError, nearest, number
 from trunnion.errors import BatchError
+from trunnion.frozen import frozen
 from trunnion.many.edits import Edit, Quantity
 from trunnion.many.quantities import QUANTITIES
 from trunnion.model import Model
@@ -19,7 +19,7 @@ from trunnion.model import Model
 MOST = 1_000_000  # variants of one study
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@frozen(eq=False)
 class Axis:
     """One quantity that varies.
 

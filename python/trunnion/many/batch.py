@@ -4,11 +4,12 @@ import fcntl
 import os
 from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import closing, contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from time import monotonic, sleep
 
 from trunnion.errors import BatchError
+from trunnion.frozen import frozen
 from trunnion.many.forked import run_forked
 from trunnion.many.onedeck import solve_deck
 from trunnion.many.records import FOLDER, INTERNAL, Entry, finished, settings_of
@@ -20,7 +21,7 @@ PATIENCE = 5.0  # for the children of a killed run to let go of the folder [s]
 Told = Callable[[Entry], None]
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Batch:
     """The decks of a batch in the order given."""
 
@@ -42,6 +43,7 @@ def batch(
     *,
     jobs: int | None = None,
     h5: bool = False,
+    permissive: bool = False,
     scheduler: str | None = None,
     redo: bool = False,
     told: Told | None = None,
@@ -53,6 +55,7 @@ def batch(
     ----------
     folder : where <stem>.out, <stem>.json and the summary go.
     jobs : processes at a time; None is one a core.
+    permissive : leave out what the model cannot represent of files of other programs.
     scheduler : address of a Dask scheduler whose workers solve instead of own processes.
     redo : solve finished decks again.
     told : called with every entry as it comes; tick : called now and then.
@@ -64,7 +67,7 @@ def batch(
     """
     paths, place = [Path(deck) for deck in decks], Path(folder)
     _refuse_names(paths)
-    settings = settings_of(h5=h5)
+    settings = settings_of(h5=h5, permissive=permissive)
     with _alone(place):
         _sweep(place, paths)
         found: dict[str, Entry] = {}

@@ -43,7 +43,7 @@ def solve_there(
     try:
         for deck in todo:
             try:
-                model, sources = read_deck(deck)
+                model, sources = read_deck(deck, settings)
                 marks = fingerprints(sources, deck)
             except (DeckError, ModelError) as error:
                 yield refused(deck, error)
@@ -65,9 +65,8 @@ def solve_there(
 
 def solve_remote(model: Model, deck: str, settings: Settings) -> tuple[Entry, dict[str, bytes]]:
     """Solve a model on a worker; what the program refuses is an entry without reports."""
-    here = settings_of(h5=bool(settings["h5"]))
-    if here != settings:
-        theirs, ours = settings["version"], here["version"]
+    theirs, ours = settings["version"], settings_of(h5=False)["version"]
+    if theirs != ours:
         raise RuntimeError(f"this worker has Trunnion {ours}, the batch is of {theirs}")
     try:
         return solve_model(model, Path(deck), settings)

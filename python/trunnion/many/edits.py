@@ -4,11 +4,12 @@ Every key means what it means on its card of the deck.
 """
 
 from collections.abc import Callable, Collection, Iterable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, TypeVar
 
 from trunnion.deck.keywords import PRESSURE_SETS
 from trunnion.deck.values import WordError, nearest
+from trunnion.frozen import frozen
 from trunnion.model import Case, Material, Model, Pipe
 
 Edit = Callable[[Model, float], Model]
@@ -17,7 +18,7 @@ Record = TypeVar("Record")
 FORCES = ("FX", "FY", "FZ", "MX", "MY", "MZ")
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Quantity:
     """One key of a study.
 

@@ -10,6 +10,7 @@ import multiprocessing
 import os
 import signal
 import sys
+import warnings
 from collections import deque
 from collections.abc import Callable, Generator, Sequence
 from dataclasses import dataclass
@@ -101,7 +102,10 @@ def _start(index: int, task: Any, work: Callable[[Any], Any]) -> _Running:
     sys.stdout.flush()
     sys.stderr.flush()
     process = context.Process(target=_child, args=(task, work, theirs, os.getpid()), daemon=True)
-    process.start()
+    with warnings.catch_warnings():
+        # from 3.12 on Python warns of threads: those of BLAS are idle here, and fork restarts them
+        warnings.simplefilter("ignore", DeprecationWarning)
+        process.start()
     theirs.close()
     return _Running(index, process, ours)
 

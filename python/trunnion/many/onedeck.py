@@ -26,7 +26,7 @@ Settings = Mapping[str, object]
 def solve_deck(deck: Path, folder: Path, settings: Settings) -> Entry:
     """Solve one deck and write its reports and its record, all of them or none."""
     try:
-        model, sources = read_deck(deck)
+        model, sources = read_deck(deck, settings)
         entry, reports = solve_model(model, deck, settings)
         write_deck(entry, reports, fingerprints(sources, deck), folder, settings)
         return entry
@@ -36,8 +36,12 @@ def solve_deck(deck: Path, folder: Path, settings: Settings) -> Entry:
         return broken(deck, folder, error)
 
 
-def read_deck(deck: Path) -> tuple[Model, tuple[str, ...]]:
-    """Read a deck; give the files it is made of as well."""
+def read_deck(deck: Path, settings: Settings) -> tuple[Model, tuple[str, ...]]:
+    """Read a deck, or a file of another program; give the files it is made of as well."""
+    from trunnion.formats import is_foreign, read_any
+
+    if is_foreign(deck):
+        return read_any(deck, permissive=bool(settings["permissive"])).model, (str(deck),)
     from trunnion.deck.reader import read_sources
 
     return read_sources(deck)

@@ -8,10 +8,12 @@ import hashlib
 import json
 import os
 from collections.abc import Iterable, Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
+
+from trunnion.frozen import frozen
 
 FOLDER = ".trunnion-batch"
 SCHEMA = 1
@@ -19,7 +21,7 @@ CERTIFIED, FAILED, BAD_DECK, INTERNAL = "certified", "failed", "bad deck", "inte
 CODES = {CERTIFIED: 0, FAILED: 1, BAD_DECK: 2, INTERNAL: 3}
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class CaseLine:
     """One case of a deck in the summary; `worst` is None without a certificate."""
 
@@ -30,7 +32,7 @@ class CaseLine:
     cause: str | None
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Entry:
     """One deck of a batch.
 
@@ -64,9 +66,10 @@ def summary_of(entry: Entry) -> dict[str, object]:
     return values
 
 
-def settings_of(*, h5: bool) -> dict[str, object]:
+def settings_of(*, h5: bool, permissive: bool = False) -> dict[str, object]:
     """Everything but the deck on which the reports depend."""
-    return {"schema": SCHEMA, "version": version("trunnion"), "h5": h5}
+    own = {"schema": SCHEMA, "version": version("trunnion")}
+    return {**own, "h5": h5, "permissive": permissive}
 
 
 def digest(content: bytes) -> str:

@@ -6,7 +6,6 @@ from the answer of the deck as it is; never from another variant, so its numbers
 but itself.
 """
 
-import gc
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
@@ -16,6 +15,7 @@ from numpy.typing import NDArray
 from trunnion.arrays import F8, CaseResult, System
 from trunnion.cases.analysis import Run, Start
 from trunnion.cases.casetext import needed
+from trunnion.collector import paused
 from trunnion.deck.values import nearest
 from trunnion.errors import BatchError, DeckError, ModelError, Problem
 from trunnion.loads import LoadSets, load_sets
@@ -138,14 +138,9 @@ def solve_block(base: Prepared, block: Sequence[Combination]) -> Answers:
         work={},
     )
     before, cache = base.run.ledger.snapshot(), _Cache()
-    collects = gc.isenabled()
-    gc.disable()  # it would go over all records of the model again and again
-    try:
+    with paused():
         for i, combination in enumerate(block):
             _fill(base, combination, cache, out, i)
-    finally:
-        if collects:
-            gc.enable()
     out.work = base.run.ledger.since(before)
     return out
 

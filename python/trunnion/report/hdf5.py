@@ -138,8 +138,6 @@ def _case(group: "h5py.Group", case: CaseResult, base: System) -> None:
     _words(group, "warnings", case.warnings)
     if not good:
         return
-    if case.digits is not None:
-        group.attrs["digits"], group.attrs["digits_at"] = case.digits, case.digits_at
     _numbers(group, case)
     if case.system.contacts is not base.contacts:
         _supports(group, case.system)

@@ -13,7 +13,6 @@ from trunnion.model import Model
 from trunnion.report.encode import dump, finite, lines, listing, records, rows, short, words
 from trunnion.report.json_modes import mode_entries
 from trunnion.report.json_runs import cycle_entries, envelope_entries, frozen_entries
-from trunnion.report.json_spread import spread_entries
 from trunnion.report.json_supports import support_entries
 from trunnion.report.json_winds import wind_entries
 from trunnion.report.origin import origin_entry
@@ -41,6 +40,8 @@ def json_report(results: Results, model: Model | None = None) -> bytes:
     if results.cycles:
         parts["cycles"] = cycle_entries(results)
     if results.spreads:
+        from trunnion.report.json_spread import spread_entries
+
         parts["spread"] = spread_entries(results)
     if model is not None and model.winds:
         parts["winds"] = wind_entries(model, results.system)
@@ -75,7 +76,7 @@ def _numbers(case: CaseResult) -> dict[str, str]:
     effect = {name: finite(value) for name, value in case.penalty_effect.items()}
     parts = {"penalty_effect": dump(effect)}
     if case.digits is not None:
-        parts["digits"] = dump({"left": case.digits, "at": case.digits_at})
+        parts["digits"] = dump({"left": round(case.digits[0], 1), "worst": case.digits[1]})
     if case.loads is not None and case.linear:
         parts["loads"] = _sum(load_sum(system, case.loads))
         parts["reactions"] = _sum(reaction_sum(case))

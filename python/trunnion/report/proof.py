@@ -57,9 +57,10 @@ def certificate_table(case: CaseResult) -> str:
             "of the largest"
         )
     if case.digits is not None:
-        worst = f", fewest at {case.digits_at}" if case.digits_at else ""
+        left, where = case.digits
         text += wrapped(
-            f"about {case.digits:.1f} digits of the largest displacement hold after rounding{worst}"
+            f"{left:.0f} digits of the displacements stand against the last bit of the input, "
+            f"fewest at {where}"
         )
     for name in case.frozen:
         text += wrapped(f"frozen engaged: {name}")

@@ -6,7 +6,6 @@ from trunnion.report.frozen import frozen_warning
 from trunnion.report.loops import cycle_lines, cycle_warnings
 from trunnion.report.modes import mode_lines, mode_warnings
 from trunnion.report.origin import origin_lines
-from trunnion.report.spread import spread_lines
 from trunnion.report.summary import summary_table
 from trunnion.report.units import ReportUnits, report_units
 from trunnion.results.supports import cause_of, is_good
@@ -25,7 +24,11 @@ def screen(results: Results, model: Model) -> tuple[bool, str]:
     lines.append(summary_table(results, units, only=shown).rstrip("\n"))
     if len(cases) > len(shown):
         lines.append(f"  ... and {len(cases) - len(shown)} more cases in the report")
-    lines += mode_lines(results) + cycle_lines(results) + spread_lines(results, units)
+    lines += mode_lines(results) + cycle_lines(results)
+    if results.spreads:
+        from trunnion.report.spread import spread_lines
+
+        lines += spread_lines(results, units)
     lines += _some([f"{name}: {cause_of(cases[name])}" for name in bad], CAUSES)
     lines += _some([f"warning: {text}" for text in all_warnings(results, units)], WARNINGS)
     broken = [name for name, cycle in results.cycles.items() if cycle.cause]

@@ -14,7 +14,6 @@ from trunnion.report.origin import origin_text
 from trunnion.report.points import middle_table, sag_table, stress_table
 from trunnion.report.proof import balance_table, certificate_table, history_table, ledger_table
 from trunnion.report.restraints import restraint_summary
-from trunnion.report.spread import spread_report
 from trunnion.report.states import state_table
 from trunnion.report.summary import summary_table
 from trunnion.report.units import ReportUnits, report_units
@@ -57,6 +56,8 @@ def text_report(results: Results, model: Model) -> bytes:
     if results.cycles:
         more["CYCLES"] = [cycle_report(cycle, units) for cycle in results.cycles.values()]
     if results.spreads:
+        from trunnion.report.spread import spread_report
+
         more["OTHER ANSWERS"] = [spread_report(s, results, units) for s in results.spreads.values()]
     for number, (title, texts) in enumerate(more.items(), 5):
         parts += [chapter(f"{number}  {title}"), *texts]

@@ -8,7 +8,7 @@ from trunnion.arrays import F8, CaseResult, Certificate, Loads, System
 from trunnion.certificate import certify
 from trunnion.errors import ModelError, Problem
 from trunnion.solver.causes import explain
-from trunnion.solver.digits import FEW
+from trunnion.solver.digits import FREEDOMS, is_lossy
 from trunnion.solver.friction import Solved
 from trunnion.solver.history import History
 from trunnion.solver.mechanism import null_motions, structural_motions
@@ -20,8 +20,8 @@ from trunnion.solver.structure import Structure
 from trunnion.solver.verdict import Reported, report_numbers
 
 PENALTY_WARNING = 1e-3
+FEW_DIGITS = 6.0
 LARGE_TURN = 0.1  # rad; beyond it small-rotation theory is off by about half a per cent
-FREEDOMS = ("X", "Y", "Z", "RX", "RY", "RZ")
 
 
 @dataclass(slots=True)
@@ -111,8 +111,23 @@ def refuse_mechanisms(structure: Structure) -> None:
         return
     structure.checked = True
     motions = structural_motions(structure)
-    if motions:
+    if motions and not holds_extended(structure):
         raise ModelError([Problem("structure", motion.text) for motion in motions])
+
+
+def holds_extended(structure: Structure) -> bool:
+    """Tell whether everything closed and stuck is positive definite in double-double.
+
+    Doubles take very soft ways of a structure with very stiff ones for no stiffness at all.
+    """
+    before = structure.extended is not None
+    if not structure.extend(True):
+        return False
+    try:
+        sound = structure.factorise(structure.closed_tangent, structure.stuck_tangent)
+        return sound and structure.rcond > TINY_PIVOT
+    finally:
+        structure.extend(before)
 
 
 def _solve(
@@ -124,20 +139,69 @@ def _solve(
     result: CaseResult,
     prepared: tuple[Point, Solved] | None,
 ) -> Origin | None:
+    """Answer a case by the first attempt that is certified."""
+    job = Job(structure, question, forcing, start, history, result)
+    end = _attempt(job, prepared)
+    if end is None and job.doubtful() and structure.extend(True):
+        history.notes.append("solved in extended precision: the stiffness is too ill-conditioned")
+        try:
+            end = _attempt(job)
+        finally:
+            structure.extend(False)
+    if end is None:
+        result.cause = job.explain()
+    return end
+
+
+@dataclass(slots=True, eq=False, repr=False)
+class Job:
+    """One case on its way to an answer, and how its last attempt ended."""
+
+    structure: Structure
+    question: Question
+    forcing: Forcing
+    start: Origin
+    history: History
+    result: CaseResult
+    solved: Solved | None = None
+
+    @property
+    def unbounded(self) -> bool:
+        """The pipe moves away: more precision or smaller steps cannot help."""
+        return self.solved is not None and "without bound" in (self.solved.cause or "")
+
+    def doubtful(self) -> bool:
+        """The factor may be to blame that there is no answer."""
+        if self.solved is None or self.unbounded:
+            return False
+        return is_lossy(self.structure, self.solved.response, self.forcing)
+
+    def explain(self) -> str:
+        """Why there is no answer."""
+        solved, s = self.solved, self.structure.sliders
+        assert solved is not None
+        if solved.settled:
+            return self.result.cause or ""
+        mu = s.mu * self.forcing.mux
+        law = Sliding(solved.sliding.capacity, s.kf, mu, self.start.datum)
+        return explain(self.structure, law, self.forcing, solved, self.history)
+
+
+def _attempt(job: Job, prepared: tuple[Point, Solved] | None = None) -> Origin | None:
+    """Solve, refine and judge; None, and a cause, where that gives no certified answer."""
+    structure, forcing, result = job.structure, job.forcing, job.result
     if prepared is None:
-        point, solved = solve_case(structure, forcing, start, question.plan, history)
+        point, solved = solve_case(structure, forcing, job.start, job.question.plan, job.history)
         refuse_mechanisms(structure)
     else:
         point, solved = prepared
+    job.solved = solved
     if not solved.settled:
-        s = structure.sliders
-        law = Sliding(solved.sliding.capacity, s.kf, s.mu * forcing.mux, start.datum)
-        result.cause = explain(structure, law, forcing, solved, history)
         return None
     reported = report_numbers(structure, point, solved.sliding, forcing)
     result.certificate = certify(
         structure.system,
-        question.loads,
+        job.question.loads,
         reported.state,
         correction_u=reported.correction_u,
         correction_r=reported.correction_r,
@@ -145,13 +209,14 @@ def _solve(
     if reported.broken or not result.certificate.passed:
         result.cause = reported.broken or refusal(result.certificate)
         return None
+    result.cause = None
     result.state, result.converged = reported.state, True
     result.penalty_u, result.penalty_r = reported.penalty_u, reported.penalty_r
     result.penalty_effect = reported.penalty_effect
-    result.digits, result.digits_at = reported.digits.left, reported.digits.at
-    result.warnings += tuple(history.notes) + _remarks(structure, reported)
+    result.digits = reported.digits
+    result.warnings += tuple(job.history.notes) + _remarks(structure, reported)
     datum = _all_sliders(structure, reported.state.datum_end)
-    return Origin(forcing, point, datum, question.loads, start.lock)
+    return Origin(forcing, point, datum, job.question.loads, job.start.lock)
 
 
 def refusal(certificate: Certificate) -> str:
@@ -172,12 +237,9 @@ def _remarks(structure: Structure, reported: Reported) -> tuple[str, ...]:
         remarks.append(
             f"rigid supports would change the answer by {100 * effect:.2g} % (penalty effect)"
         )
-    digits = reported.digits
-    if digits.left < FEW:
-        remarks.append(
-            f"only about {digits.left:.1f} digits of the largest displacement hold, worst at "
-            f"{digits.at}: the model is badly conditioned there"
-        )
+    left, where = reported.digits
+    if left < FEW_DIGITS:
+        remarks.append(f"only {max(left, 0.0):.1f} digits are left, fewest at {where}")
     turn = np.abs(reported.state.u[:, 3:])
     if turn.size and turn.max() > LARGE_TURN:
         node = structure.system.labels[int(turn.max(axis=1).argmax())]

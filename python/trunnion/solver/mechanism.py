@@ -6,7 +6,7 @@ import numpy as np
 
 from trunnion.arrays import F8, System
 from trunnion.solver.newton import proximal_factor
-from trunnion.solver.quantities import Point, Response
+from trunnion.solver.quantities import Response
 from trunnion.solver.structure import Structure
 
 BLOCK = 8  # vectors iterated together
@@ -67,7 +67,7 @@ def _named(motions: list[Motion]) -> list[Motion]:
 
 def _ritz(structure: Structure, tangent: F8, slider_tangent: F8, v: F8) -> tuple[F8, F8]:
     """Energies of the span of v and its shapes without coupling; exact to eps of the largest."""
-    image = np.stack([_product(structure, tangent, slider_tangent, x) for x in v])
+    image = np.stack([structure.product(tangent, slider_tangent, x) for x in v])
     energy = np.einsum("ani,bni->ab", v, image)
     value, turn = np.linalg.eigh(0.5 * (energy + energy.T))
     return value, np.einsum("ab,ani->bni", turn, v)
@@ -91,20 +91,6 @@ def _separate(shapes: F8) -> F8:
             if j != i:
                 rows[j] -= rows[j, column] * rows[i]
     return rows.reshape(shapes.shape)
-
-
-def _product(structure: Structure, tangent: F8, slider_tangent: F8, v: F8) -> F8:
-    """K v with the elements' part formed from deformations."""
-    v = np.ascontiguousarray(v)
-    point = Point(v, np.zeros_like(v))
-    r, _, response = structure.residual(point, structure.frictionless(), structure.still)
-    structure.scatter(-response.reaction, r)
-    w = structure.gather(v)
-    structure.scatter(-np.einsum("cij,cj->ci", tangent, w), r)
-    part = np.zeros_like(r)
-    structure.sliders_product(slider_tangent, v, part)
-    r[structure.absent] = 0.0
-    return -(r + part)
 
 
 def describe(system: System, v: F8) -> str:

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 
+ROUND_OFF_PIVOT = 1e-17  # rcond of a factor with a pivot that is nothing but round-off
 DENSE = 240  # freedoms with mass up to which M is looked at as a whole
 NO_MASS = 1e-10  # eigenvalue of M, scaled to a unit diagonal, that is zero
 
@@ -138,6 +139,10 @@ class Pencil:
             return False
         finally:
             structure.ledger.follow(box, box.spd.work)
+        if shift > 0.0 and rcond < ROUND_OFF_PIVOT:  # its largest motion tells where
+            probe = np.random.default_rng(1).normal(size=(1, len(self.heavy)))
+            self.stuck = int(np.abs(box.spd.solve(probe)).argmax())
+            return False
         return shift > 0.0 or rcond > TINY_PIVOT
 
     def solve(self, b: F8) -> F8:

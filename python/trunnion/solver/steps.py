@@ -6,6 +6,7 @@ from functools import partial
 import numpy as np
 
 from trunnion.arrays import F8, Loads
+from trunnion.solver.digits import is_lossy
 from trunnion.solver.events import split_at_closings
 from trunnion.solver.friction import Solved, solve_step
 from trunnion.solver.history import History
@@ -83,7 +84,17 @@ def _step(span: Span, point: Point, plan: Plan, capacity: F8 | None) -> Solved:
         solved = span.whole(point)
     if solved.settled:
         return split_at_closings(span, point, solved) if plan.events else solved
-    return _fallbacks(span, point, solved) if plan.ramp else solved
+    if not plan.ramp or _needs_digits(span, solved):
+        return solved
+    return _fallbacks(span, point, solved)
+
+
+def _needs_digits(span: Span, solved: Solved) -> bool:
+    """A factor with more digits is to be tried first: a ramp changes the answer."""
+    structure = span.structure
+    if structure.extended is not None or "without bound" in (solved.cause or ""):
+        return False
+    return is_lossy(structure, solved.response, span.target)
 
 
 def _fallbacks(span: Span, point: Point, first: Solved) -> Solved:

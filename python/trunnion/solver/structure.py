@@ -8,6 +8,7 @@ from trunnion import kernels
 from trunnion.arrays import F8, I4, Loads, System
 from trunnion.errors import NotPositiveDefiniteError
 from trunnion.solver.chains import at_kept_nodes
+from trunnion.solver.extended import ExtendedFactor
 from trunnion.solver.inert import contacts_of, sliders_of
 from trunnion.solver.ledger import Ledger
 from trunnion.solver.members import (
@@ -19,6 +20,8 @@ from trunnion.solver.members import (
 )
 from trunnion.solver.pattern import Pattern, build_pattern
 from trunnion.solver.quantities import Forcing, Inside, Point, Response, Sliding
+
+EXTENDED_PIVOT = 1e-12  # a pivot in double-double that is worth one in doubles
 
 
 class Box:
@@ -58,6 +61,7 @@ class Structure:
         self.system, self.ledger = system, ledger
         self.shifted = self.checked = False  # a singular tangent was met; it was looked into
         self.keep, self.parent, self.like = keep, parent, like
+        self.extended: ExtendedFactor | None = None
         if parent is None:
             self.members = whole_members(system) if whole else chain_members(system)
             self.box: Box = Box() if like is None else like.box
@@ -320,6 +324,8 @@ class Structure:
             and np.array_equal(held[1], slider_tangent)
         ):
             return True
+        if self.extended is not None:
+            return self._factorise_extended(self.extended, tangent, slider_tangent, shift)
         box = self.box
         self.analyse()
         assert box.spd is not None
@@ -339,6 +345,29 @@ class Structure:
         box.owner, box.held = self, (tangent, slider_tangent, shift)
         return True
 
+    def _factorise_extended(
+        self, factor: ExtendedFactor, tangent: F8, slider_tangent: F8, shift: float
+    ) -> bool:
+        """The same in double-double, whose pivots may be 1e-12 of those of doubles."""
+        box = self.box
+        box.owner = None
+        self.shifted |= shift > 0.0
+        self.ledger.add(extended=1)
+        try:
+            box.rcond = factor.factorise(tangent, slider_tangent, shift) / EXTENDED_PIVOT
+        except NotPositiveDefiniteError:
+            return False
+        box.owner, box.held = self, (tangent, slider_tangent, shift)
+        return True
+
+    def extend(self, extended: bool) -> bool:
+        """Factor in double-double from now on, or no longer; tells whether that can be done."""
+        self.box.owner, self.extended = None, None
+        if extended:
+            factor = ExtendedFactor(self)
+            self.extended = factor if factor.feasible else None
+        return self.extended is not None
+
     def analyse(self) -> None:
         """Make the symbolic analysis, unless there is one."""
         if self.box.spd is None:
@@ -347,6 +376,10 @@ class Structure:
 
     def solve(self, r: F8) -> F8:
         """Displacements (n_node, 6) of the factored stiffness under r; or (m, n_node, 6)."""
+        if self.extended is not None:
+            rows = self.extended.solve(r.reshape(-1, 6 * self.n_node))
+            self.ledger.add(**{"refine" if self.ledger.refining else "solve": len(rows)})
+            return rows.reshape(r.shape)
         spd = self.box.spd
         assert spd is not None
         assert self.box.owner is self
@@ -354,6 +387,17 @@ class Structure:
         x = spd.solve(r.reshape(-1, 6 * self.n_node))
         self.ledger.follow(self.box, spd.work)
         return x.reshape(shape)
+
+    def product(self, tangent: F8, slider_tangent: F8, v: F8) -> F8:
+        """K v with the members' part formed from deformations; zero at absent freedoms."""
+        v = np.ascontiguousarray(v)
+        point = Point(v, np.zeros_like(v))
+        r, _, response = self.residual(point, self.frictionless(), self.still)
+        self.scatter(-response.reaction, r)
+        self.scatter(-np.einsum("cij,cj->ci", tangent, self.gather(v)), r)
+        self.sliders_product(slider_tangent, v, r)
+        r[self.absent] = 0.0
+        return -r
 
     def changing_product(self, response: Response, p: F8, r: F8) -> None:
         """Subtract from r the share of K p that comes from contacts which may change."""

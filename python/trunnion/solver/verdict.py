@@ -7,7 +7,7 @@ import numpy as np
 from trunnion.arrays import ENGAGED, F8, OPEN, SLIP, State
 from trunnion.solver.convergence import judge
 from trunnion.solver.coupled import coupled_step
-from trunnion.solver.digits import Digits, remaining_digits
+from trunnion.solver.digits import digits_left
 from trunnion.solver.newton import tangent_factor
 from trunnion.solver.quantities import Forcing, Point, Response, Sliding
 from trunnion.solver.structure import Structure
@@ -28,9 +28,9 @@ class Reported:
     penalty_u: F8
     penalty_r: F8
     penalty_effect: dict[str, float]
+    digits: tuple[float, str]  # left of 16, and the freedom that lost most
     singular: bool  # the tangent at the answer needed a proximal term
     broken: str | None  # the convergence rule that the last two iterations do not meet
-    digits: Digits  # of the displacements that hold
 
 
 def report_numbers(
@@ -60,11 +60,11 @@ def report_numbers(
             r, every, end, response = after
         broken = judge(response, after[3], p, None, point.u).broken
         penalty_u, penalty_r, effect = _penalty(structure, point, response)
-        digits = remaining_digits(structure, point, response, forcing, left[0])
+        digits = digits_left(structure, point, law, forcing, response, left[0])
     finally:
         structure.ledger.refining = False
     state = _state(structure, every, law, response, end)
-    return Reported(state, *left, penalty_u, penalty_r, effect, shift > 0.0, broken, digits)
+    return Reported(state, *left, penalty_u, penalty_r, effect, digits, shift > 0.0, broken)
 
 
 def _factor(structure: Structure, response: Response) -> float:

@@ -114,16 +114,29 @@ def _follow(model: Model, net: Net) -> None:
 
 def _spread_all(model: Model, legs: Mapping[str, Legs], net: Net) -> None:
     """Place every label: pipes first, then springs, the origin, and what CNODE= alone names."""
-    waiting = dict(legs)
     sprung = [(_vertex(s.start, legs), _vertex(s.end, legs)) for s in model.springs]
     held = {s.node for s in model.supports} | {d.node for d in model.displacements}
     tied = [(_vertex(s.node, legs), s.cnode) for s in model.supports if s.cnode in held]
+    ends = {x for pair in (*sprung, *tied) for x in pair if x is not None}
+    waiting = _carrying(model, legs, ends | {_first(model, legs)})
     _settle(model, waiting, net)
     _coincide(sprung, model, waiting, net)
     net.put(_first(model, legs), (0.0, 0.0, 0.0))
     _settle(model, waiting, net)
     _coincide(sprung, model, waiting, net)
     _coincide([(a, b) for a, b in tied if b is not None], model, waiting, net, one_way=True)
+
+
+def _carrying(model: Model, legs: Mapping[str, Legs], others: set[str]) -> dict[str, Legs]:
+    """Bends on whose points 30N 30M 30F a pipe or one of `others` hangs; the rest can wait.
+
+    The points of all bends follow once every label has its place.
+    """
+    if not legs:
+        return {}
+    labels = others.union((p.start for p in model.pipes), (p.end for p in model.pipes))
+    wanted = {label[:-1] for label in labels if label[-1] in "NMF"}
+    return {label: leg for label, leg in legs.items() if label in wanted}
 
 
 def _vertex(label: str, legs: Mapping[str, Legs]) -> str:

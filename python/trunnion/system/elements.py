@@ -147,7 +147,7 @@ def section_rigidity(
     bore = section.od - 2.0 * section.wall
     wall = section.wall * (RIGID_WALL if rigid else 1.0)
     od = bore + 2.0 * wall
-    area = 0.25 * pi * (od**2 - bore**2)
-    second = pi / 64.0 * (od**4 - bore**4)
+    area = pi * wall * (od - wall)  # differences of powers would cost a thin wall its digits
+    second = area / 16.0 * (od**2 + bore**2)
     e, g = material.e, 0.5 * material.e / (1.0 + material.nu)
     return e * area, g * 2.0 * second, e * second, 0.5 * g * area if shear else 0.0, od, wall

@@ -1,0 +1,156 @@
+"""Labels and bends: which label of the model each node of the job is."""
+
+from dataclasses import replace
+from math import acos, degrees, tan
+
+from trunnion.formats.caesar.job import MIDDLE, Element, Job, Vec
+from trunnion.formats.caesar.units import clean
+from trunnion.formats.findings import Findings
+from trunnion.frozen import frozen
+
+STRAIGHT = 1e-5  # two elements that turn by less make no bend [rad]
+SAME_ANGLE = 0.1  # [deg]: a node this near to 0, the middle or the end of an arc is there
+SNAP = 1e-5  # a tangent that uses up its element to this length uses it up exactly [m]
+
+
+@frozen
+class Corner:
+    """A bend: element before and after (from 0), turn [rad], tangent length, radius [m]."""
+
+    before: int
+    after: int
+    turn: float
+    tangent: float
+    radius: float
+
+
+class Labels:
+    """Labels of the model for nodes of the job."""
+
+    def __init__(self, job: Job, findings: Findings) -> None:
+        self.job = job
+        self.findings = findings
+        self.at: dict[int, list[int]] = {}
+        for i, e in enumerate(job.elements):
+            for node in (e.start, e.end):
+                self.at.setdefault(node, []).append(i)
+        self.corners: dict[int, Corner] = {}
+        self.arc: dict[int, str] = {}  # node on an arc -> its label
+        for i, e in enumerate(job.elements):
+            if e.bend is not None:
+                self._corner(i, e)
+        self._use_up()
+        for node, corner in self.corners.items():
+            self._arc(node, corner)
+
+    def end(self, i: int, node: int) -> str:
+        """Label of an end of element `i`."""
+        corner = self.corners.get(node)
+        if corner is not None:
+            return str(node) if i in (corner.before, corner.after) else f"{node}F"
+        return self.arc.get(node, str(node))
+
+    def node(self, node: int) -> str | None:
+        """Label of a node that something stands on; None: there is no such node."""
+        if node in self.arc:
+            return self.arc[node]
+        return str(node) if node in self.at else None
+
+    def ends(self, i: int) -> tuple[str, str]:
+        """Labels of both ends of element `i`."""
+        e = self.job.elements[i]
+        return self.end(i, e.start), self.end(i, e.end)
+
+    def _corner(self, i: int, e: Element) -> None:
+        """Find the element that leaves a bend, and its turn."""
+        bend = e.bend
+        assert bend is not None
+        name = f"element {e.start}-{e.end}"
+        if e.end in self.corners:
+            self.findings.fault(bend.line, f"{name}: node {e.end} has a bend already")
+            return
+        after = self._leaving(i, e.end)
+        if after is None:
+            text = f"{name}: the bend at {e.end} has no element that leaves it"
+            self.findings.fault(bend.line, text)
+            return
+        other = self.job.elements[after]
+        out = other.delta if other.start == e.end else _minus(other.delta)
+        if e.rigid is not None:
+            text = "bend on a rigid element; taken as a corner without bend"
+            self.findings.leave_out(bend.line, name, text)
+            return
+        cosine = _dot(e.delta, out) / (size(e.delta) * size(out)) if size(e.delta) else 1.0
+        turn = acos(min(1.0, max(-1.0, cosine)))
+        if turn < STRAIGHT:
+            self.findings.assume(
+                f"the bend at {e.end} does not turn: it is straight pipe", bend.line
+            )
+            return
+        if turn > 3.1:
+            self.findings.fault(bend.line, f"{name}: the pipe turns back on itself at {e.end}")
+            return
+        tangent = bend.radius * tan(0.5 * turn)
+        self.corners[e.end] = Corner(i, after, turn, tangent, bend.radius)
+
+    def _leaving(self, i: int, node: int) -> int | None:
+        """Element that leaves a bend: the next of the file, else the first other one there."""
+        elements = self.job.elements
+        here = [j for j in self.at[node] if j != i and size(elements[j].delta) > 0.0]
+        if i + 1 in here and elements[i + 1].start == node:
+            return i + 1
+        return next(iter(here), None)
+
+    def _use_up(self) -> None:
+        """Let tangents that use up an element but for rounding use it up exactly."""
+        for _ in range(3):
+            for i, e in enumerate(self.job.elements):
+                ends = [n for n in (e.start, e.end) if n in self.corners]
+                mine = [n for n in ends if i in (self.corners[n].before, self.corners[n].after)]
+                used, length = sum(self.corners[n].tangent for n in mine), size(e.delta)
+                if mine and used != length and abs(used - length) <= SNAP:
+                    for n in mine:
+                        self._scale(n, length / used)
+
+    def _scale(self, node: int, factor: float) -> None:
+        c = self.corners[node]
+        radius = clean(c.radius * factor)
+        self.corners[node] = replace(c, tangent=c.tangent * factor, radius=radius)
+
+    def _arc(self, node: int, corner: Corner) -> None:
+        """Give the nodes on an arc their labels."""
+        e = self.job.elements[corner.before]
+        assert e.bend is not None
+        turn = degrees(corner.turn)
+        places = {"N": 0.0, "M": 0.5 * turn, "F": turn}
+        for angle, label in e.bend.nodes:
+            if abs(angle - MIDDLE) < 1e-3:
+                angle = places["M"]
+            point = min(places, key=lambda p: abs(places[p] - angle))
+            if abs(places[point] - angle) > SAME_ANGLE and self._is_used(label):
+                text = f"node {label} at {angle:g} degrees of the bend at {node}"
+                text += f"; taken to the point at {places[point]:g} degrees"
+                self.findings.leave_out(e.bend.line, f"element {e.start}-{e.end}", text)
+            if label != node and label not in self.corners:
+                self.arc[label] = f"{node}{point}"
+
+    def _is_used(self, node: int) -> bool:
+        """Tell whether anything stands on a node."""
+        job = self.job
+        used = {r.node for e in job.elements for r in e.restraints}
+        used |= {s.node for e in job.elements for s in (*e.displacements, *e.forces)}
+        used |= {h.node for h in job.hangers}
+        return node in used or node in self.at
+
+
+def size(v: Vec) -> float:
+    """Length of a vector."""
+    return float((v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) ** 0.5)
+
+
+def _dot(a: Vec, b: Vec) -> float:
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def _minus(a: Vec) -> Vec:
+    return -a[0], -a[1], -a[2]

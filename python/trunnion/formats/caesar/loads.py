@@ -1,0 +1,128 @@
+"""Displacements, forces, uniform loads and wind of the job."""
+
+from trunnion.formats.caesar.geometry import Labels
+from trunnion.formats.caesar.job import Element, Job, Sets, Six, Uniform
+from trunnion.formats.findings import Findings
+from trunnion.model import SETS, Acceleration, Displacement, Force, Model, Support
+
+
+class Loads:
+    """Adds what the elements carry; each record of the file once."""
+
+    def __init__(self, job: Job, labels: Labels, model: Model, findings: Findings) -> None:
+        self.job = job
+        self.labels = labels
+        self.model = model
+        self.findings = findings
+        self._done: set[int] = set()  # lines of records
+
+    def element(self, e: Element) -> None:
+        """Add displacements and forces of one element."""
+        for record in e.displacements:
+            label = self._label(record, "displacements")
+            if label is not None:
+                self._displacements(e, record, label)
+        for record in e.forces:
+            label = self._label(record, "forces")
+            if label is not None:
+                self._forces(e, record, label)
+
+    def uniform(self) -> None:
+        """Add uniform loads in g that hold for all elements as accelerations."""
+        held: Uniform | None = None
+        found: list[Uniform | None] = []
+        for e in self.job.elements:
+            held = e.uniform or held
+            found.append(held)
+        if held is None:
+            return
+        for n in range(9):
+            values = {None if u is None else u.loads[n] for u in found}
+            loads = {value for value in values if value is not None and any(value[0])}
+            if not loads:
+                continue
+            first = next(u for u in found if u is not None)
+            (vector, in_g), *more = loads
+            if in_g and not more and len(values) == 1:
+                place = self.findings.place(self.job.elements[0].line)
+                made = Acceleration(SETS[n], vector, place)
+                self.model.accelerations.append(made)
+                self.findings.note(made, f"uniform load {SETS[n]} in g (line {first.line})")
+                text = "uniform loads in g are occasional loads, linear about the operating case"
+                self.findings.assume(text, first.line)
+            else:
+                text = f"uniform load U{SETS[n]} by length, or on a part of the elements; left out"
+                self.findings.leave_out(first.line, "elements", text)
+
+    def wind(self) -> None:
+        """Say that wind is not in the file."""
+        winds = [e.wind for e in self.job.elements if e.wind is not None and e.wind.kind != 2]
+        if not winds:
+            return
+        kinds = {"wave" if w.kind == 1 else "wind" for w in winds}
+        shapes = ", ".join(f"{x:g}" for x in sorted({w.shape for w in winds}))
+        text = (
+            f"{' and '.join(sorted(kinds))} with shape factor {shapes}: the file has no pressure "
+        )
+        self.findings.assume(f"{text}or waves, so the model has none", winds[0].line)
+
+    def _label(self, record: Sets, what: str) -> str | None:
+        """Label of the node; None for a record that was read already or stands nowhere."""
+        if record.line in self._done:
+            return None
+        self._done.add(record.line)
+        label = self.labels.node(record.node) or self._connecting(record.node)
+        if label is None:
+            text = f"{what} at node {record.node}, which no element has"
+            self.findings.leave_out(record.line, f"node {record.node}", text)
+        return label
+
+    def _connecting(self, node: int) -> str | None:
+        """Label of a node that is only a CNODE of restraints."""
+        here = any(r.cnode == node for e in self.job.elements for r in e.restraints)
+        return str(node) if here or any(h.cnode == node for h in self.job.hangers) else None
+
+    def _displacements(self, e: Element, record: Sets, label: str) -> None:
+        """Add imposed displacements; six zeros alone are an anchor."""
+        held = [row for row in record.values if any(x is not None for x in row)]
+        place = self.findings.place(e.line)
+        if held and all(row == (0.0,) * 6 for row in held):
+            if any(s.node == label and s.kind == "anchor" for s in self.model.supports):
+                return
+            made = Support(label, "anchor", place=place)
+            self.model.supports.append(made)
+            text = f"held by displacements of 0 (line {record.line})"
+            self.findings.note(made, text)
+            return
+        rows = list(enumerate(record.values))
+        kept = [(n, row) for n, row in rows if any(row)]
+        if not kept:  # some freedoms are held, none is moved
+            kept = [(n, row) for n, row in rows if row in held][:1]
+        missing = _held(held) - _held([row for _, row in kept])
+        for n, row in rows:
+            more = {i for i in missing if row[i] is not None}
+            if more and (n, row) not in kept:
+                kept.append((n, row))
+                missing -= more
+        for n, row in sorted(kept):
+            moved = Displacement(label, SETS[n], row, place)
+            self.model.displacements.append(moved)
+            self.findings.note(moved, f"displacements of line {record.line}")
+
+    def _forces(self, e: Element, record: Sets, label: str) -> None:
+        for n, row in enumerate(record.values):
+            if any(row):
+                f = tuple(x or 0.0 for x in row)
+                made = Force(
+                    label,
+                    SETS[n],
+                    (f[0], f[1], f[2], f[3], f[4], f[5]),
+                    self.findings.place(e.line),
+                )
+                self.model.forces.append(made)
+                self.findings.note(made, f"forces of line {record.line}")
+
+
+def _held(rows: list[Six]) -> set[int]:
+    """Freedoms that any of some rows holds."""
+    return {i for row in rows for i, x in enumerate(row) if x is not None}

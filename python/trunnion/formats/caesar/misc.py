@@ -1,0 +1,125 @@
+"""MISCEL_1 (materials, nozzles, hangers, options) and COORDS."""
+
+from trunnion.formats.caesar.job import HangerData, Nozzle, Vec
+from trunnion.formats.caesar.sections import Section, Skeleton
+from trunnion.formats.caesar.text import Columns
+from trunnion.formats.caesar.units import FileUnits, clean
+from trunnion.frozen import frozen
+
+USUAL_AMBIENT = 21.11  # C, 70 F: of the program
+
+
+@frozen
+class Misc:
+    """What MISCEL_1 says; `ambient` in C, None where the options are missing."""
+
+    materials: list[int]
+    nozzles: tuple[Nozzle, ...]
+    hangers: tuple[HangerData, ...]
+    ambient: float | None
+
+
+def read_misc(columns: Columns, frame: Skeleton, units: FileUnits) -> Misc:
+    """Read the section from its first line on; its parts have no headers of their own."""
+    section = frame.sections["MISCEL_1"]
+    n_elem, n_hanger = frame.counts["ELEMENTS"], frame.counts["hangers"]
+    at = section.header + 1
+    n_line = -(-n_elem // 6)
+    if section.n_line < n_line:
+        text = f"MISCEL_1 has {section.n_line} lines; {n_line} of material numbers are needed"
+        columns.findings.fault(section.header, text)
+        return Misc([0] * n_elem, (), (), None)
+    materials = [_whole(x) for x in columns.many(at, n_elem)]
+    at += n_line
+    nozzles: list[Nozzle] = []
+    for _ in range(frame.counts["nozzles"]):
+        if at + 3 > section.last:
+            columns.findings.fault(section.header, "MISCEL_1 ends within the nozzles")
+            return Misc(materials, tuple(nozzles), (), None)
+        node, vessel = (_whole(x) for x in columns.reals(at, 6)[:2])
+        nozzles.append(Nozzle(at, node, vessel))
+        at += 4
+    hangers: tuple[HangerData, ...] = ()
+    if n_hanger:
+        strings = frame.sections["ELEMENTS"].n_line >= 15 * n_elem
+        needed = 2 + -(-n_hanger // 6) * 5 + n_hanger * (5 if strings else 3)
+        if section.last - at + 1 < needed:
+            text = f"MISCEL_1 ends within the data of {n_hanger} hangers"
+            columns.findings.fault(section.header, text)
+            return Misc(materials, tuple(nozzles), (), None)
+        hangers = _hangers(columns, at, n_hanger, units, strings=strings)
+        at += needed
+    return Misc(materials, tuple(nozzles), hangers, _ambient(columns, section, at, units))
+
+
+def _whole(value: float) -> int:
+    return round(min(max(value, -1e9), 1e9))
+
+
+def _hangers(
+    columns: Columns, at: int, n: int, units: FileUnits, *, strings: bool
+) -> tuple[HangerData, ...]:
+    """Read the defaults, the nodes, the values of each hanger, and four lists of integers."""
+    rows = -(-n // 6)
+    nodes = _list(columns, at + 2, n)
+    first = at + 2 + rows
+    each = 4 if strings else 2
+    # the anchors of a hanger (integers only) stand below it, or all together below all hangers
+    step = each + 1 if "." not in columns.text(first + each) else each
+    after = first + n * (each + 1)
+    number, table, _, cnode = (_list(columns, after + k * rows, n) for k in range(4))
+    found = []
+    for i in range(n):
+        line = first + i * step
+        v = columns.many(line, 11 if strings else 10)
+        found.append(
+            HangerData(
+                line,
+                nodes[i],
+                rate=clean(v[0] * units.kt),
+                cold_load=clean(v[4] * units.force),
+                hot_load=clean(v[5] * units.force),
+                constant=clean(v[10] * units.force) if strings else 0.0,
+                variation=v[1] or 25.0,
+                number=number[i],
+                cnode=cnode[i],
+                table=table[i],
+                tag=columns.string(line + 2) if strings else "",
+            )
+        )
+    return tuple(found)
+
+
+def _list(columns: Columns, line: int, n: int) -> list[int]:
+    """Read `n` integers, six a line."""
+    found: list[int] = []
+    for k in range(0, n, 6):
+        found += columns.integers(line + k // 6, min(6, n - k))
+    return found
+
+
+def _ambient(columns: Columns, section: Section, at: int, units: FileUnits) -> float | None:
+    """Read the ambient temperature: the third value of the second line of options."""
+    if at + 1 > section.last:
+        return None
+    value = columns.reals(at + 1, 6)[2]
+    return clean(units.celsius(value)) if value else None
+
+
+def read_coordinates(
+    columns: Columns, section: Section | None, units: FileUnits
+) -> tuple[tuple[int, int, Vec], ...]:
+    """Read the places of the first nodes of disconnected parts."""
+    if section is None or not section.n_line or not columns.text(section.header + 1).strip():
+        return ()
+    count = columns.integers(section.header + 1, 1)[0]
+    if not 0 <= count <= section.n_line - 1:
+        text = f"COORDS counts {count} nodes and has {section.n_line - 1} lines of them"
+        columns.findings.fault(section.header + 1, text)
+        return ()
+    found = []
+    for line in range(section.header + 2, section.header + 2 + count):
+        node, x, y, z = columns.reals(line, 4)
+        f = units.length
+        found.append((line, _whole(node), (clean(x * f), clean(y * f), clean(z * f))))
+    return tuple(found)

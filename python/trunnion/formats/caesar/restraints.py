@@ -1,0 +1,202 @@
+"""Restraints and hangers of the job as supports of the model."""
+
+import re
+from collections.abc import Iterator
+
+from trunnion.formats.caesar.geometry import Labels, size
+from trunnion.formats.caesar.job import Element, HangerData, Job, Restraint, Vec
+from trunnion.formats.findings import Findings
+from trunnion.model import Direction, Model, Support
+
+_AXES = "XYZ"
+# code -> word of the model; what is not here has no counterpart
+WORDS: dict[int, str] = {1: "ANC", 8: "GUIDE", 9: "LIMIT", 25: "+LIM", 26: "-LIM"}
+for _k, _axis in enumerate(_AXES):
+    WORDS |= {2 + _k: _axis, 5 + _k: f"R{_axis}", 13 + _k: f"+{_axis}", 16 + _k: f"-{_axis}"}
+    WORDS |= {19 + _k: f"+R{_axis}", 22 + _k: f"-R{_axis}", 10 + _k: f"{_axis}SNB"}
+# codes that the program's guide has and a model has not
+OTHERS: dict[int, str] = {}
+for _k, _axis in enumerate(_AXES):
+    OTHERS |= {27 + _k: f"{_axis}ROD", 30 + _k: f"+{_axis}ROD", 33 + _k: f"-{_axis}ROD"}
+    OTHERS |= {36 + _k: f"{_axis}2", 39 + _k: f"R{_axis}2", 42 + _k: f"+{_axis}2"}
+    OTHERS |= {45 + _k: f"-{_axis}2", 48 + _k: f"+R{_axis}2", 51 + _k: f"-R{_axis}2"}
+    OTHERS |= {54 + _k: f"{_axis}SPR", 57 + _k: f"+{_axis}SNB", 60 + _k: f"-{_axis}SNB"}
+_TAG = re.compile(r"[^\s=!&(),\"']{1,64}")
+
+
+class Restraints:
+    """Collects the restraints of all elements; those of a node and CNODE make one support."""
+
+    def __init__(self, job: Job, labels: Labels, model: Model, findings: Findings) -> None:
+        self.job = job
+        self.labels = labels
+        self.model = model
+        self.findings = findings
+        self._seen: set[tuple[object, ...]] = set()
+        self._tags = [r.tag for e in job.elements for r in e.restraints]
+        self._tags += [h.tag for h in job.hangers]
+
+    def element(self, i: int) -> None:
+        """Add the supports of one element's restraints."""
+        e = self.job.elements[i]
+        groups: dict[tuple[str, str | None], list[tuple[Restraint, Direction]]] = {}
+        for r in e.restraints:
+            for label, cnode in self._places(e, r):
+                direction = self._direction(i, e, r, label)
+                if direction is not None:
+                    groups.setdefault((label, cnode), []).append((r, direction))
+        for (label, cnode), members in groups.items():
+            self._support(e, label, cnode, members)
+
+    def _places(self, e: Element, r: Restraint) -> Iterator[tuple[str, str | None]]:
+        """Give the labels of the node and CNODE, once for each different restraint."""
+        label = self.labels.node(r.node)
+        key = (r.node, r.code, r.stiffness, r.gap, r.mu, r.cnode, r.cosines)
+        if label is None:
+            text = f"restraint {_word(r.code)} at node {r.node}, which no element has"
+            self.findings.leave_out(r.line, f"node {r.node}", text)
+        elif key not in self._seen:
+            self._seen.add(key)
+            other = self.labels.node(r.cnode) or str(r.cnode)
+            yield label, other if r.cnode else None
+        else:
+            text = "restraints that are given twice, with equal values, are one support"
+            self.findings.assume(text, r.line)
+
+    def _direction(self, i: int, e: Element, r: Restraint, label: str) -> Direction | None:
+        """Make a direction word; anchors and snubbers are words of their own here."""
+        word = WORDS.get(r.code)
+        if word is None or word in ("+LIM", "-LIM"):
+            shown = word or OTHERS.get(r.code) or f"of code {r.code}"
+            text = f"restraint {shown}: a model has no such support; left out"
+            self.findings.leave_out(r.line, f"node {r.node}", text)
+            return None
+        if word == "ANC":
+            if r.gap or r.mu:
+                text = "an anchor with a gap or friction; taken without"
+                self.findings.leave_out(r.line, f"node {r.node}", text)
+            return Direction("ANC", k=r.stiffness)
+        if word.endswith("SNB"):
+            return self._along(r, word[0], Direction(f"SNB{word[0]}", k=r.stiffness))
+        if word in ("GUIDE", "LIMIT"):
+            along = self._pipe_of(i, label, e)
+            return Direction(word, None, (r.gap, r.gap), r.stiffness, None, r.mu or None, along)
+        gap = (r.gap, r.gap)
+        if word.lstrip("+-")[0] == "R":
+            if r.mu:
+                text = f"friction on {word}; a rotational support has none"
+                self.findings.leave_out(r.line, f"node {r.node}", text)
+            if not _is_axis(r.cosines, word[-1]):
+                text = f"{word} along a skewed axis; taken about {word[-1]}"
+                self.findings.leave_out(r.line, f"node {r.node}", text)
+            return Direction(word, None, gap, r.stiffness)
+        return self._along(r, word[-1], Direction(word, None, gap, r.stiffness, None, r.mu or None))
+
+    def _along(self, r: Restraint, axis: str, made: Direction) -> Direction:
+        """Give a direction its own vector where the cosines do not lie along its axis."""
+        if _is_axis(r.cosines, axis):
+            return made
+        c = r.cosines
+        length = size(c)
+        sign = made.word[0] if made.word[0] in "+-" else ""
+        word = f"{sign}({','.join(f'{x:g}' for x in c)})"
+        if made.word.startswith("SNB"):
+            word = f"SNB{word}"
+        if abs(length - 1.0) > 1e-3:
+            text = f"direction cosines of length {length:.4g} are taken as a direction"
+            self.findings.assume(text, r.line)
+        return Direction(word, c, made.gap, made.k, made.kf, made.mu)
+
+    def _pipe_of(self, i: int, label: str, e: Element) -> str | None:
+        """Name the element that GUIDE and LIM follow, where others leave in other directions."""
+        if label[-1] in "NMF" or label not in (str(e.start), str(e.end)):
+            return None
+        node = int(label)
+        if node in self.labels.corners or not size(e.delta):
+            return None
+        others = [self.job.elements[j].delta for j in self.labels.at[node]]
+        if all(_parallel(e.delta, other) for other in others if size(other)):
+            return None
+        return "-".join(self.labels.ends(i))
+
+    def _support(
+        self, e: Element, label: str, cnode: str | None, members: list[tuple[Restraint, Direction]]
+    ) -> None:
+        """Make the supports of one node: anchors and snubbers alone, all others together."""
+        place = self.findings.place(e.line)
+        name = self._name(members[0][0].tag)
+        together: list[tuple[Restraint, Direction]] = []
+        for r, d in members:
+            if d.word == "ANC":
+                kr = d.k  # one number for all six freedoms
+                made = Support(label, "anchor", (), cnode, name, d.k, kr, place=place)
+            elif d.word.startswith("SNB"):
+                free = Direction(d.word[3:], d.vector)
+                made = Support(label, "snubber", (free,), cnode, name, d.k, place=place)
+            elif any(old.word == d.word for _, old in together):
+                made = Support(label, "support", (d,), cnode, None, place=place)
+            else:
+                together.append((r, d))
+                continue
+            name = None
+            self.model.supports.append(made)
+            self._note(made, [r])
+        if together:
+            words = tuple(d for _, d in together)
+            made = Support(label, "support", words, cnode, name, place=place)
+            self.model.supports.append(made)
+            self._note(made, [r for r, _ in together])
+
+    def _note(self, made: Support, members: list[Restraint]) -> None:
+        what = ", ".join(f"{_word(r.code)} (line {r.line})" for r in members)
+        tags = dict.fromkeys(r.tag for r in members if r.tag and r.tag != made.name)
+        self.findings.note(made, f"restraints {what}" + "".join(f", tag {t}" for t in tags))
+
+    def hanger(self, h: HangerData) -> None:
+        """Add a spring hanger; one without rate and load waits for its design."""
+        label = self.labels.node(h.node)
+        name = f"node {h.node}"
+        if label is None:
+            self.findings.leave_out(h.line, name, "hanger at a node that no element has")
+            return
+        cnode = None if not h.cnode else self.labels.node(h.cnode) or str(h.cnode)
+        n = max(1, h.number)  # the program multiplies rate and load by the number of hangers
+        load = n * (h.constant or h.cold_load)
+        line = self.job.elements[self.labels.at[h.node][0]].line if h.node in self.labels.at else 0
+        place = self.findings.place(line or h.line)
+        if not load:
+            text = "spring hanger to be designed; left out"
+            self.findings.leave_out(h.line, name, text)
+            return
+        rate = 0.0 if h.constant else n * h.rate
+        made = Support(label, "hanger", (), cnode, self._name(h.tag), rate, load=load, place=place)
+        self.model.supports.append(made)
+        self.findings.note(made, f"hanger of line {h.line}" + f", {n} of them" * (n > 1))
+
+    def _name(self, tag: str) -> str | None:
+        """Take a tag as the name of a support where it can be one and is the only one."""
+        fits = _TAG.fullmatch(tag) is not None and tag.isprintable()
+        return tag if fits and self._tags.count(tag) == 1 else None
+
+
+def _word(code: int) -> str:
+    """Name a code as the program does."""
+    return {"GUIDE": "GUI", "LIMIT": "LIM"}.get(WORDS.get(code, ""), WORDS.get(code, "")) or (
+        OTHERS.get(code) or f"of code {code}"
+    )
+
+
+def _is_axis(c: Vec, axis: str) -> bool:
+    """Tell whether cosines lie along an axis, either way, or are not given."""
+    length = size(c)
+    return length == 0.0 or abs(abs(c[_AXES.index(axis)]) / length - 1.0) < 1e-9
+
+
+def _parallel(a: Vec, b: Vec) -> bool:
+    """Tell whether two elements are in line, as Trunnion does for ALONG=."""
+    cross = (
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    )
+    return size(cross) <= 5e-4 * size(a) * size(b)

@@ -1,0 +1,441 @@
+"""CAESAR II neutral files of our own, versions 7.01, 11.0 and 15.01: the model, field by field.
+
+The files are written by `cii.Cii` from the format's description.  Numbers that are expected here
+follow from the description of each file by hand; units are exact where the file's constant is one
+of a known unit (25.4 is mm, 4.448 is N, 0.06895 is bar, 0.5556 and -17.7778 are C).
+"""
+
+import math
+
+import pytest
+from cii import ENGLISH, ENGLISH_LABELS, Cii
+from cii_jobs import ANC, LIM, RESTING, VERSIONS, Y, everything, job, slot
+
+from trunnion.deck.reader import read_text
+from trunnion.errors import DeckError
+from trunnion.formats import Findings
+from trunnion.formats.caesar import read
+from trunnion.formats.source import source_of
+from trunnion.model import Direction, Operation
+
+
+def imported(cii, *, permissive=False, file="line.cii"):
+    source = source_of(cii.text().encode("cp1252"), file)
+    result = read(source, Findings(source, permissive=permissive))
+    assert read_text(result.deck()) == result.model  # deck -> model is the identity
+    assert read_text(result.deck()).deck() == result.model.deck()
+    return result
+
+
+def model_of(cii, **keys):
+    return imported(cii, **keys).model
+
+
+def problems_of(cii, **keys):
+    with pytest.raises(DeckError) as caught:
+        imported(cii, **keys)
+    return [str(problem) for problem in caught.value.problems]
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_title_units_and_settings(version):
+    model = model_of(everything(version))
+    assert model.title == "Hot oil header"
+    units = model.units
+    assert (units.length, units.force, units.pressure, units.temperature) == (
+        *("mm", "N", "bar", "C"),
+    )
+    assert model.settings.up == "Y"
+    assert model.settings.stiffen == "MAX"
+    assert model.origin.format == f"CAESAR II neutral file, version {version:g}"
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_pipes_bends_and_rigids(version):
+    model = model_of(everything(version))
+    assert [(p.start, p.end, p.delta, p.rigid) for p in model.pipes] == [
+        ("10", "20", (6.0, 0.0, 0.0), False),
+        ("20", "30", (6.0, 0.0, 0.0), False),
+        ("30", "40", (0.0, 0.0, 4.0), False),
+        ("40", "50", (0.0, 0.0, 0.5), True),
+        ("50", "60", (0.0, 0.0, 1.5), False),
+        ("60", "70", (0.0, -3.0, 0.0), False),
+        ("40", "71", (2.5, 0.0, 0.0), False),
+    ]
+    assert [(b.node, b.radius, b.flanges, b.k) for b in model.bends] == [
+        ("30", 0.381, 0, None),
+        ("60", 0.381, 1, None),
+    ]
+    # 2100 N, contents of 0.5 m, 1.75 times 0.5 m of insulation: 25.4 mm to 0.1 %, so exactly mm
+    bore, od = 0.27305 - 2 * 0.009271, 0.27305
+    fluid = math.pi / 4 * bore**2 * 850.0
+    cover = math.pi / 4 * ((od + 0.15) ** 2 - od**2) * 140.0
+    weight = 2100.0 + 0.5 * 9.80665 * (fluid + 1.75 * cover)
+    assert model.pipes[3].weight == pytest.approx(weight, rel=1e-6)  # written with 7 digits
+    assert [(n.label, n.xyz) for n in model.nodes] == [("10", (0.0, 2.5, 0.0))]
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_sections_materials_and_operation(version):
+    model = model_of(everything(version))
+    header, branch = model.sections.values()
+    assert (header.od, header.wall, header.corrosion) == (0.27305, 0.009271, 0.0015)
+    assert (header.fluid, header.insulation, header.insulation_density) == (850.0, 0.075, 140.0)
+    assert (branch.od, branch.wall, branch.insulation) == (0.1143, 0.00602, 0.0)
+    carbon, stainless = model.materials.values()
+    assert (carbon.name, carbon.grade) == ("A106-B", "A106-B")
+    assert (carbon.nu, carbon.density) == (0.292, 7833.44)
+    assert carbon.e == pytest.approx(203.4e9, rel=1e-3)  # the grade's, which is as near
+    assert (stainless.name, stainless.grade) == ("A312-TP316", "A312-TP304")
+    operation = Operation({"1": 170.0, "2": 90.0}, {"1": 12e5, "2": 6e5}, 21.1142)
+    assert {p.operation for p in map(_hashable, model.pipes)} == {_hashable_op(operation)}
+
+
+def _hashable(pipe):
+    class Row:
+        operation = _hashable_op(pipe.operation)
+
+    return Row
+
+
+def _hashable_op(op):
+    return tuple(op.t.items()), tuple(op.p.items()), op.tref
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_supports_displacements_and_forces(version):
+    model = model_of(everything(version))
+    found = {(s.node, s.kind): s for s in model.supports}
+    assert set(found) == {
+        *(("10", "anchor"), ("20", "support"), ("40", "support"), ("30M", "support")),
+        *(("50", "hanger"), ("71", "anchor")),
+    }
+    assert found["10", "anchor"].k is None
+    assert found["20", "support"].directions == (Direction("+Y", mu=0.3),)
+    assert found["20", "support"].name == ("PS-20" if version > 8 else None)
+    along = "30-40"  # a branch leaves at 40, so the owner's direction is named
+    assert found["40", "support"].directions == (
+        Direction("GUIDE", None, (0.003, 0.003), None, None, 0.2, along),
+        Direction("LIMIT", None, (0.01, 0.01), 2e6, None, None, along),  # 2e4 N/cm
+    )
+    assert found["30M", "support"].directions == (Direction("+Y", k=5e4),)
+    hanger = found["50", "hanger"]
+    assert (hanger.k, hanger.load) == (1e4, 8000.0)  # 100 N/cm
+    half = math.radians(0.5)
+    assert [(d.node, d.set) for d in model.displacements] == [("70", "1"), ("70", "2")]
+    assert model.displacements[0].d == pytest.approx((0.0015, 0.003, None, None, None, half))
+    assert model.displacements[1].d == (0.0, 0.001, None, None, None, None)
+    (force,) = model.forces
+    assert (force.node, force.set, force.f) == ("20", "1", (0.0, -500.0, 0.0, 0.0, 0.0, 30.0))
+
+
+def test_all_versions_of_one_job_give_one_model():
+    # version 7 has no tags and no types of rigids, which are comments and names only
+    old, mid, new = (model_of(everything(v)) for v in VERSIONS)
+    assert mid == new
+    unnamed = [s.node for s in mid.supports if s.name]
+    assert unnamed == ["20", "50"]
+    assert [s.directions for s in old.supports] == [s.directions for s in mid.supports]
+    assert old.pipes == mid.pipes
+
+
+def test_comments_say_what_came_from_where():
+    deck = imported(everything(11.0)).deck().splitlines()
+    assert deck[0] == "! Made from line.cii: CAESAR II neutral file, version 11"
+    pipe = deck.index("PIPE     10 20 DX=6000 SECTION=273.05X9.271 MATERIAL=A106-B")
+    assert deck[pipe - 2] == "! element 1, line 69: LINE-1 (PUMP)"  # OPERATE stands between
+    bend = next(i for i, x in enumerate(deck) if x.startswith("BEND     30"))
+    assert "node 29 is 30M, node 28 is 30N" in deck[bend - 1]
+    assert "SUPPORT  30M +Y K=50" in deck
+
+
+def test_english_units_are_read_by_their_constants():
+    c = Cii(constants=ENGLISH, labels=ENGLISH_LABELS, ambient=70.0)
+    c.defaults = {"od": 10.75, "wall": 0.365, "t1": 350.0, "p1": 150.0, "density": 0.283}
+    c.defaults |= {"insulation": 3.0, "insulation_density": 0.006655, "fluid": 0.03}
+    anchors = [slot(5, ANC)]
+    c.add(5, 10, dx=20.0, RESTRANT=anchors, BEND={"radius": 15.0})  # deltas are feet
+    c.add(10, 15, dy=10.0, RESTRANT=[slot(15, 3, k=1e3, gap=0.25, cosines=Y)])
+    model = model_of(c)
+    assert model.units.length == "ft"
+    assert model.pipes[0].delta == (6.096, 0.0, 0.0)  # 0.08333 is 1/12 to 0.1 %
+    (section,) = model.sections.values()
+    assert (section.od, section.wall) == pytest.approx((0.27305, 0.009271))
+    assert section.fluid == pytest.approx(0.03 * 0.45359237 / 0.0254**3)
+    assert model.pipes[0].operation.t["1"] == pytest.approx((350.0 - 32.0) / 1.8)
+    assert model.pipes[0].operation.tref == pytest.approx(21.1111111111)
+    assert model.pipes[0].operation.p["1"] == pytest.approx(150 * 6894.757293)
+    direction = model.supports[-1].directions[0]
+    assert direction.k == pytest.approx(1e3 * 4.4482216152605 / 0.0254)
+    assert direction.gap == pytest.approx((0.00635, 0.00635))
+    assert model.bends[0].radius == pytest.approx(0.381)
+
+
+def test_unknown_constants_are_taken_as_they_stand():
+    constants = list(job().constants)
+    constants[1] = 3.9  # no unit of force known
+    c = job(constants=tuple(constants))
+    c.add(10, 20, dx=1000.0, RESTRANT=[slot(10, ANC)], FORCMNT=[(20, {1: (39.0, *[0.0] * 5)})])
+    assert model_of(c).forces[0].f[0] == pytest.approx(10 * 4.4482216152605)
+
+
+def test_a_label_that_contradicts_its_constant_is_an_error():
+    labels = list(job().labels)
+    labels[2] = "in."
+    c = job(labels=tuple(labels))
+    c.add(10, 20, dx=1000.0, RESTRANT=[slot(10, ANC)])
+    (problem,) = problems_of(c)
+    assert "the label says in., the constant of lengths says 0.001 m" in problem
+
+
+def test_vertical_axis_z():
+    c = job(z_up=True)
+    up = (0.0, 0.0, 1.0)
+    c.add(10, 20, dx=1000.0, RESTRANT=[slot(10, ANC), slot(20, 15, cosines=up)])
+    model = model_of(c)
+    assert model.settings.up == "Z"
+    assert model.supports[1].directions == (Direction("+Z"),)
+
+
+@pytest.mark.parametrize(
+    ("code", "word"),
+    [
+        *((2, "X"), (3, "Y"), (4, "Z"), (5, "RX"), (6, "RY"), (7, "RZ"), (8, "GUIDE")),
+        *((9, "LIMIT"), (13, "+X"), (14, "+Y"), (15, "+Z"), (16, "-X"), (17, "-Y"), (18, "-Z")),
+        *((19, "+RX"), (20, "+RY"), (21, "+RZ"), (22, "-RX"), (23, "-RY"), (24, "-RZ")),
+    ],
+)
+def test_every_code_of_a_restraint(code, word):
+    c = job()
+    c.add(10, 20, dx=1000.0, RESTRANT=[slot(10, ANC), slot(20, code)])
+    (direction,) = model_of(c).supports[1].directions
+    assert direction.word == word
+
+
+@pytest.mark.parametrize("code", [10, 11, 12])
+def test_snubbers(code):
+    c = job()
+    c.add(10, 20, dx=1000.0, RESTRANT=[slot(10, ANC), slot(20, code, k=1e3)])
+    snubber = model_of(c).supports[1]
+    assert (snubber.kind, snubber.directions[0].word) == ("snubber", "XYZ"[code - 10])
+    assert snubber.k == 1e5
+
+
+@pytest.mark.parametrize("code", [*range(25, 63), 0, 99])
+def test_restraints_without_counterpart_are_named(code):
+    c = job()
+    c.add(10, 20, dx=1000.0, RESTRANT=[slot(10, ANC), slot(20, code)])
+    (problem,) = problems_of(c)
+    assert "node 20: restraint " in problem
+    result = imported(c, permissive=True)
+    assert [x.element for x in result.left_out] == ["node 20"]
+    assert len(result.model.supports) == 1
+
+
+def test_rotational_stiffness_and_gap_have_their_units():
+    c = job()
+    c.add(10, 20, dx=1000.0, RESTRANT=[slot(10, ANC), slot(20, 7, k=10.0, gap=2.0)])
+    (direction,) = model_of(c).supports[1].directions
+    assert direction.k == pytest.approx(10.0 * 180 / math.pi)  # N m/deg
+    assert direction.gap == pytest.approx((math.radians(2.0),) * 2)
+
+
+def test_skewed_cosines_make_a_vector_and_placeholders_do_not():
+    c = job()
+    skew = slot(20, 13, cosines=(0.6, 0.0, 0.8), mu=0.3)
+    c.add(10, 20, dx=1000.0, RESTRANT=[slot(10, ANC), skew, slot(20, LIM, cosines=(1, 0, 0))])
+    one, two = model_of(c).supports[1].directions
+    assert (one.word, one.vector, one.mu) == ("+(0.6,0,0.8)", (0.6, 0.0, 0.8), 0.3)
+    assert (two.word, two.vector) == ("LIMIT", None)
+
+
+def test_rigid_is_from_a_tenth_of_the_default_and_for_zero():
+    c = job()
+    codes = [slot(20, 2, k=0.0), slot(20, 3, k=1.7512e12), slot(20, 4, k=1.7e10)]
+    c.add(10, 20, dx=1000.0, RESTRANT=[slot(10, ANC), *codes])
+    result = imported(c)
+    x, y, z = result.model.supports[1].directions
+    assert (x.k, y.k, z.k) == (None, None, 1.7e12)
+    assert any("stiffness of 0 are rigid" in a.text for a in result.assumed)
+
+
+def test_a_restraint_given_on_two_elements_is_one_support():
+    c = job()
+    same = slot(20, RESTING, cosines=Y, mu=0.1)
+    c.add(10, 20, dx=1000.0, RESTRANT=[slot(10, ANC), same])
+    c.add(20, 30, dx=1000.0, RESTRANT=[same, slot(20, 2)])
+    result = imported(c)
+    assert [len(s.directions) for s in result.model.supports] == [0, 1, 1]
+    assert any("given twice" in a.text for a in result.assumed)
+
+
+def test_cnodes_tie_nodes_and_place_parts():
+    c = job()
+    c.add(10, 20, dx=1000.0, RESTRANT=[slot(10, ANC)])
+    c.add(120, 130, dy=-700.0, RESTRANT=[slot(130, ANC), slot(120, ANC, cnode=20)])
+    model = model_of(c)
+    tie = model.supports[2]
+    assert (tie.node, tie.cnode, tie.kind) == ("120", "20", "anchor")
+    assert [(n.label, n.xyz) for n in model.nodes] == [
+        ("10", (0.0, 0.0, 0.0)),
+        ("120", (1.0, 0.0, 0.0)),
+    ]
+
+
+def test_coordinates_place_disconnected_parts():
+    c = job()
+    c.coords = [(30, 0.0, 1000.0, 5000.0)]
+    c.add(10, 20, dx=1000.0, RESTRANT=[slot(10, ANC)])
+    c.add(30, 40, dx=1000.0, RESTRANT=[slot(30, ANC)])
+    c.add(50, 60, dx=1000.0, RESTRANT=[slot(50, ANC)])
+    result = imported(c)
+    assert {n.label: n.xyz for n in result.model.nodes} == {
+        "10": (0.0, 0.0, 0.0),
+        "30": (0.0, 1.0, 5.0),
+        "50": (0.0, 0.0, 0.0),
+    }
+    assert any("part that starts at node 50" in a.text for a in result.assumed)
+
+
+def test_a_loop_open_by_rounding_is_closed_and_a_wide_one_is_an_error():
+    def loop(gap):
+        c = job()
+        c.add(10, 20, dx=3000.0, RESTRANT=[slot(10, ANC)])
+        c.add(20, 30, dz=2000.0)
+        c.add(10, 40, dz=2000.0)
+        c.add(40, 30, dx=3000.0 + gap)
+        return c
+
+    result = imported(loop(1.5))
+    assert result.model.pipes[3].delta == pytest.approx((3.0, 0.0, 0.0))
+    assert any("open by 1.5 mm" in a.text for a in result.assumed)
+    assert "element 4" in result.deck()  # its comment stayed
+    (problem,) = problems_of(loop(60.0))
+    assert "the loop at element 40-30 is open by 60 mm" in problem
+
+
+def test_a_bend_may_use_up_its_element():
+    c = job()
+    c.add(10, 20, dx=381.002, RESTRANT=[slot(10, ANC)], BEND={"radius": 381.0})
+    c.add(20, 30, dz=1143.0, BEND={"radius": 381.0, "nodes": ((0.0, 28),)})
+    c.add(30, 40, dx=381.0)
+    model = model_of(c)
+    assert model.bends[0].radius == pytest.approx(0.381002)
+    assert model.bends[1].radius == 0.381
+
+
+def test_a_rigid_at_a_bend_gets_a_pipe_for_its_tangent():
+    c = job()
+    c.add(10, 20, dx=2000.0, RESTRANT=[slot(10, ANC)], BEND={"radius": 381.0})
+    c.add(20, 30, dz=881.0, RIGID=(1000.0, 2))
+    model = model_of(c)
+    pipe, rigid = model.pipes[1:]
+    assert (pipe.start, pipe.end, pipe.rigid) == ("20", "20T", False)
+    assert (rigid.start, rigid.end, rigid.rigid) == ("20T", "30", True)
+    assert pipe.delta == pytest.approx((0.0, 0.0, 0.381))
+    assert rigid.delta == pytest.approx((0.0, 0.0, 0.5))
+
+
+def test_branches_at_a_bend_leave_from_its_points():
+    c = job()
+    c.add(
+        10, 20, dx=2000.0, RESTRANT=[slot(10, ANC)], BEND={"radius": 381.0, "nodes": ((45.0, 19),)}
+    )
+    c.add(20, 30, dz=2000.0)
+    c.add(19, 119, dy=-500.0, RESTRANT=[slot(119, RESTING, cosines=Y)])  # dummy leg
+    c.add(20, 120, dy=-500.0)
+    model = model_of(c)
+    assert [(p.start, p.end) for p in model.pipes[2:]] == [("20M", "119"), ("20F", "120")]
+
+
+def test_an_element_without_length_joins_its_ends():
+    c = job()
+    c.add(10, 20, dx=1000.0, RESTRANT=[slot(10, ANC)])
+    c.add(20, 21)
+    c.add(21, 30, dx=1000.0)
+    result = imported(c)
+    assert [(s.node, s.kind, s.cnode) for s in result.model.supports][1] == ("21", "anchor", "20")
+    assert any("no length" in a.text for a in result.assumed)
+
+
+def test_a_held_node_without_anchor_is_an_anchor():
+    c = job()
+    c.add(10, 20, dx=1000.0, DISPLMNT=[(10, {1: (0.0,) * 6})])
+    model = model_of(c)
+    assert [(s.node, s.kind) for s in model.supports] == [("10", "anchor")]
+    assert not model.displacements
+
+
+def test_uniform_loads_in_g_of_all_elements_are_accelerations():
+    c = job()
+    c.add(10, 20, dx=1000.0, RESTRANT=[slot(10, ANC)], UNIFORM=[0.3, 0, 0, 1.0, *[0.0] * 32])
+    c.add(20, 30, dx=1000.0)
+    (a,) = model_of(c).accelerations
+    assert (a.set, a.a) == ("1", (0.3, 0.0, 0.0))
+
+
+def test_blank_temperatures_are_ambient_and_said():
+    c = job()
+    c.add(10, 20, dx=1000.0, RESTRANT=[slot(10, ANC)])
+    c.add(20, 30, dx=1000.0, t1=0.0, t2=0.0, p1=0.0, p2=0.0)
+    result = imported(c)
+    assert result.model.pipes[1].operation.t == {"1": 21.1142, "2": 21.1142}
+    assert result.model.pipes[1].operation.p == {"1": 0.0, "2": 0.0}
+    assert any("taken as the ambient temperature" in a.text for a in result.assumed)
+
+
+def test_the_marker_of_blanks_carries_the_value_before():
+    c = job()
+    c.add(10, 20, dx=1000.0, RESTRANT=[slot(10, ANC)])
+    blank = dict.fromkeys(("od", "wall", "t1", "p1", "e", "dy"), -1.0101)
+    c.add(20, 30, dx=1000.0, **blank)
+    model = model_of(c)
+    assert len(model.sections) == len(model.materials) == 1
+    assert model.pipes[0].operation == model.pipes[1].operation
+    assert model.pipes[1].delta == (1.0, 0.0, 0.0)
+
+
+def test_material_constants_of_the_data_base_stand_in_for_zeros():
+    c = job()
+    c.add(10, 20, dx=1000.0, RESTRANT=[slot(10, ANC)], e=0.0, nu=0.0, density=0.0, material=186)
+    (material,) = model_of(c).materials.values()
+    assert (material.name, material.grade) == ("A335-P5", "A335-P5")
+    assert (material.nu, material.density) == (0.292, 7695.04)
+
+
+def test_an_unknown_material_is_named_once():
+    c = job()
+    for n in range(3):
+        c.add(10 + n, 11 + n, dx=1000.0, material=777, RESTRANT=[slot(10, ANC)] if not n else [])
+    (problem,) = problems_of(c)
+    assert "element 10-11: material 777 is not known; taken as carbon steel" in problem
+    assert len(imported(c, permissive=True).left_out) == 1
+
+
+def test_lining_and_cladding_are_weights():
+    c = job()
+    lined = {"lining": 50.0, "lining_density": 0.0024}
+    c.add(
+        10, 20, dx=1000.0, RESTRANT=[slot(10, ANC)], **lined, cladding=1.0, cladding_density=0.0027
+    )
+    c.add(20, 30, dx=1000.0, cover=1.2)
+    lined, covered = model_of(c).sections.values()
+    assert (lined.lining, lined.lining_density) == (0.05, 2400.0)
+    inside = 0.27305 + 0.15
+    area = math.pi / 4 * ((inside + 0.002) ** 2 - inside**2)
+    assert lined.weight == pytest.approx(area * 2700.0 * 9.80665)
+    assert (covered.weight, covered.insulation_density) == (120.0, 0.0)  # 1.2 N/cm instead
+
+
+def test_windows_text_is_read():
+    c = job(titles=("Dampfleitung Süd",))
+    c.add(10, 20, dx=1000.0, RESTRANT=[slot(10, ANC)])
+    result = imported(c)
+    assert result.model.title == "Dampfleitung Süd"
+    assert "text read as cp1252" in result.header
+
+
+def test_titles_that_a_card_cannot_hold_are_tamed():
+    c = job(titles=("A & B! done &",))
+    c.add(10, 20, dx=1000.0, RESTRANT=[slot(10, ANC)])
+    assert model_of(c).title == "A B done"
