@@ -9,67 +9,74 @@ module element
    use frame, only: cross, cross_matrix
    use kinds, only: ip, wp
    use status_codes, only: status_bad_section, status_ok, status_zero_length
+   use taper, only: taper_flexibility, taper_free_deformation, taper_resultant
    implicit none (type, external)
    private
-   public :: invert, kind_arc, kind_spring, kind_straight
+   public :: invert, kind_arc, kind_spring, kind_straight, kind_taper, n_form
    public :: tip_deformation, tip_flexibility, tip_resultant, tip_stiffness
 
-   integer(ip), parameter :: kind_straight = 0_ip, kind_arc = 1_ip, kind_spring = 2_ip
+   integer(ip), parameter :: kind_straight = 0_ip, kind_arc = 1_ip, kind_spring = 2_ip, &
+      & kind_taper = 3_ip
+   integer, parameter :: n_form = 8
 
 contains
 
    !> Flexibility in the axes of end 1 (not of springs).
-   pure function tip_flexibility(kind, length, radius, angle, rigidity, flex) result(f)
+   pure function tip_flexibility(kind, form, rigidity, flex) result(f)
       integer(ip), intent(in) :: kind
-      real(wp), intent(in) :: length, radius, angle   !! [m], [m], [rad]
-      real(wp), intent(in) :: rigidity(4), flex
+      real(wp), intent(in) :: form(:), rigidity(4), flex
       real(wp) :: f(6, 6)
 
       if (kind == kind_arc) then
-         f = arc_flexibility(radius, angle, rigidity, flex)
+         f = arc_flexibility(form(2), form(3), rigidity, flex)
+      else if (kind == kind_taper) then
+         f = taper_flexibility(form, rigidity, flex)
       else
-         f = beam_flexibility(length, rigidity, flex)
+         f = beam_flexibility(form(1), rigidity, flex)
       end if
    end function tip_flexibility
 
-   !> Free tip deformation in the axes of end 1 under load (3) [N/m], strain and curvature.
-   pure function tip_deformation(kind, length, radius, angle, rigidity, flex, load, strain, &
-         & curvature) result(v)
+   !> Free tip deformation in the axes of end 1 under load [N/m], strain and curvature.
+   pure function tip_deformation(kind, form, rigidity, flex, load, strain, curvature) result(v)
       integer(ip), intent(in) :: kind
-      real(wp), intent(in) :: length, radius, angle, rigidity(4), flex
-      real(wp), intent(in) :: load(3), strain, curvature
+      real(wp), intent(in) :: form(:), rigidity(4), flex
+      real(wp), intent(in) :: load(3, 3), strain, curvature
       real(wp) :: v(6)
 
       if (kind == kind_arc) then
-         v = arc_free_deformation(radius, angle, rigidity, flex, load, strain, curvature)
+         v = arc_free_deformation(form(2), form(3), rigidity, flex, load(:, 1), strain, curvature)
       else if (kind == kind_straight) then
-         v = beam_free_deformation(length, rigidity, flex, load, strain)
+         v = beam_free_deformation(form(1), rigidity, flex, load(:, 1), strain)
+      else if (kind == kind_taper) then
+         v = taper_free_deformation(form, rigidity, flex, load, strain)
       else
          v(:) = 0.0_wp
+         v(1) = strain*form(1)      ! an expansion joint grows along its axis
       end if
    end function tip_deformation
 
-   !> Resultant of the uniform load: force, and moment about end 1, axes of end 1.
-   pure function tip_resultant(kind, length, radius, angle, load) result(w)
+   !> Resultant of the load: force, and moment about end 1, axes of end 1.
+   pure function tip_resultant(kind, form, load) result(w)
       integer(ip), intent(in) :: kind
-      real(wp), intent(in) :: length, radius, angle, load(3)
+      real(wp), intent(in) :: form(:), load(3, 3)
       real(wp) :: w(6)
 
       w(:) = 0.0_wp
       if (kind == kind_arc) then
-         w(1:3) = load*radius*angle
-         w(4:6) = cross(arc_moment(radius, 0.0_wp, angle), load)
+         w(1:3) = load(:, 1)*form(2)*form(3)
+         w(4:6) = cross(arc_moment(form(2), 0.0_wp, form(3)), load(:, 1))
       else if (kind == kind_straight) then
-         w(1:3) = load*length
-         w(4:6) = cross([0.5_wp*length**2, 0.0_wp, 0.0_wp], load)
+         w(1:3) = load(:, 1)*form(1)
+         w(4:6) = cross([0.5_wp*form(1)**2, 0.0_wp, 0.0_wp], load(:, 1))
+      else if (kind == kind_taper) then
+         w = taper_resultant(form, load)
       end if
    end function tip_resultant
 
    !> Stiffness at the tip in the axes of end 1.
-   pure subroutine tip_stiffness(kind, length, radius, angle, rigidity, flex, spring, axes, d, &
-         & k, status)
+   pure subroutine tip_stiffness(kind, form, rigidity, flex, spring, axes, d, k, status)
       integer(ip), intent(in) :: kind
-      real(wp), intent(in) :: length, radius, angle, rigidity(4), flex
+      real(wp), intent(in) :: form(:), rigidity(4), flex
       real(wp), intent(in) :: spring(6)    !! stiffnesses at mid-distance, own axes
       real(wp), intent(in) :: axes(3, 3)   !! columns ex, ey, ez of end 1, global
       real(wp), intent(in) :: d(3)         !! from end 1 to end 2, global [m]
@@ -82,7 +89,7 @@ contains
          k = spring_stiffness(spring, matmul(d, axes))
          return
       end if
-      if (.not. (length > 0.0_wp)) then
+      if (.not. (form(1) > 0.0_wp)) then
          status = status_zero_length
          return
       end if
@@ -91,9 +98,15 @@ contains
          return
       end if
       if (kind == kind_arc) then
-         call invert(arc_flexibility(radius, angle, rigidity, flex), k, status)
+         call invert(arc_flexibility(form(2), form(3), rigidity, flex), k, status)
+      else if (kind == kind_taper) then
+         if (min(form(5) - form(6), form(7) - form(8)) > 0.0_wp) then
+            call invert(taper_flexibility(form, rigidity, flex), k, status)
+         else
+            status = status_bad_section
+         end if
       else
-         k = beam_stiffness(length, rigidity, flex)
+         k = beam_stiffness(form(1), rigidity, flex)
       end if
    end subroutine tip_stiffness
 

@@ -15,7 +15,7 @@ contains
    !> Tip stiffness of every element in its axes; `info` is the first bad element.
    pure subroutine element_stiffness(kind, form, rigidity, flex, spring, axes, d, k, status, info)
       integer(ip), intent(in) :: kind(:)
-      real(wp), intent(in) :: form(:, :)       !! (3, n) length [m], radius [m], angle [rad]
+      real(wp), intent(in) :: form(:, :)       !! (n_form, n) see `element`
       real(wp), intent(in) :: rigidity(:, :), flex(:), spring(:, :)
       real(wp), intent(in) :: axes(:, :, :), d(:, :)
       real(wp), intent(out) :: k(:, :, :)
@@ -26,8 +26,8 @@ contains
       status = status_ok
       info = -1_ip
       do i = 1_ip, size(kind, kind=ip)
-         call tip_stiffness(kind(i), form(1, i), form(2, i), form(3, i), rigidity(:, i), &
-            & flex(i), spring(:, i), axes(:, :, i), d(:, i), k(:, :, i), status)
+         call tip_stiffness(kind(i), form(:, i), rigidity(:, i), flex(i), spring(:, i), &
+            & axes(:, :, i), d(:, i), k(:, :, i), status)
          if (status /= status_ok) then
             info = i - 1_ip
             return
@@ -39,19 +39,19 @@ contains
    pure subroutine element_loads(kind, form, rigidity, flex, axes, dist, strain, curvature, v0, w)
       integer(ip), intent(in) :: kind(:)
       real(wp), intent(in) :: form(:, :), rigidity(:, :), flex(:), axes(:, :, :)
-      real(wp), intent(in) :: dist(:, :)                !! global, per length of axis [N/m]
+      real(wp), intent(in) :: dist(:, :, :)     !! (3, 3, n) global, per length of axis [N/m]
       real(wp), intent(in) :: strain(:), curvature(:)   !! [-], [rad/m]
       real(wp), intent(out) :: v0(:, :), w(:, :)        !! (6, n)
 
-      real(wp) :: load(3)
+      real(wp) :: load(3, 3)
       integer(ip) :: i
 
       do i = 1_ip, size(kind, kind=ip)
-         load = matmul(dist(:, i), axes(:, :, i))
-         v0(:, i) = tip_deformation(kind(i), form(1, i), form(2, i), form(3, i), rigidity(:, i), &
-            & flex(i), load, strain(i), curvature(i))
+         load = matmul(transpose(axes(:, :, i)), dist(:, :, i))
+         v0(:, i) = tip_deformation(kind(i), form(:, i), rigidity(:, i), flex(i), load, strain(i), &
+            & curvature(i))
          w(:, i) = turn_to_global(axes(:, :, i), &
-            & tip_resultant(kind(i), form(1, i), form(2, i), form(3, i), load))
+            & tip_resultant(kind(i), form(:, i), load))
       end do
    end subroutine element_loads
 

@@ -7,7 +7,7 @@
 module mass
    use assembly, only: add_pair
    use bend, only: arc_point
-   use element, only: kind_arc, kind_spring, tip_flexibility
+   use element, only: kind_arc, kind_spring, n_form, tip_flexibility
    use frame, only: cross_matrix, turn_to_global
    use kinds, only: ip, wp
    implicit none (type, external)
@@ -30,7 +30,7 @@ contains
    pure subroutine assemble_mass(kind, form, rigidity, flex, k, axes, line, inertia, lumped, &
          & ends, rank, colptr, val)
       integer(ip), intent(in) :: kind(:)
-      real(wp), intent(in) :: form(:, :)       !! (3, n) length [m], radius [m], angle [rad]
+      real(wp), intent(in) :: form(:, :)       !! (n_form, n) see `element`
       real(wp), intent(in) :: rigidity(:, :), flex(:)
       real(wp), intent(in) :: k(:, :, :)       !! tip stiffness, element axes
       real(wp), intent(in) :: axes(:, :, :)
@@ -48,8 +48,8 @@ contains
          if (lumped) then
             m = lumped_mass(kind(i), form(1, i), form(3, i), line(i), inertia(:, i))
          else
-            m = consistent_mass(kind(i), form(1, i), form(2, i), form(3, i), rigidity(:, i), &
-               & flex(i), k(:, :, i), line(i), inertia(:, i))
+            m = consistent_mass(kind(i), form(:, i), rigidity(:, i), flex(i), k(:, :, i), &
+               & line(i), inertia(:, i))
          end if
          m = turn_12(axes(:, :, i), m)
          call add_pair(m(1:6, 1:6), m(1:6, 7:12), m(7:12, 7:12), ends(:, i), rank(i), colptr, val)
@@ -57,11 +57,9 @@ contains
    end subroutine assemble_mass
 
    !> Integral of N' m N along the axis, axes of end 1; freedoms of end 1, then of end 2.
-   pure function consistent_mass(kind, length, radius, angle, rigidity, flex, k, line, inertia) &
-         & result(m)
+   pure function consistent_mass(kind, form, rigidity, flex, k, line, inertia) result(m)
       integer(ip), intent(in) :: kind
-      real(wp), intent(in) :: length, radius, angle   !! [m], [m], [rad]
-      real(wp), intent(in) :: rigidity(4), flex
+      real(wp), intent(in) :: form(:), rigidity(4), flex
       real(wp), intent(in) :: k(6, 6)                 !! tip stiffness, axes of end 1
       real(wp), intent(in) :: line, inertia(2)        !! as in `assemble_mass`
       real(wp) :: m(12, 12)
@@ -72,9 +70,9 @@ contains
       m(:, :) = 0.0_wp
       do i = 1, 2*n_half
          x = abscissa(i)
-         n = shape_functions(kind, length, radius, angle, rigidity, flex, k, x)
-         t = section_mass(line, inertia, merge(x*angle, 0.0_wp, kind == kind_arc))
-         m = m + weight(i)*length*matmul(transpose(n), matmul(t, n))
+         n = shape_functions(kind, form, rigidity, flex, k, x)
+         t = section_mass(line, inertia, merge(x*form(3), 0.0_wp, kind == kind_arc))
+         m = m + weight(i)*form(1)*matmul(transpose(n), matmul(t, n))
       end do
    end function consistent_mass
 
@@ -91,23 +89,25 @@ contains
    end function lumped_mass
 
    !> Displacements at a fraction x of the axis by those of both ends, axes of end 1.
-   pure function shape_functions(kind, length, radius, angle, rigidity, flex, k, x) result(n)
+   pure function shape_functions(kind, form, rigidity, flex, k, x) result(n)
       integer(ip), intent(in) :: kind
-      real(wp), intent(in) :: length, radius, angle, rigidity(4), flex, k(6, 6), x
+      real(wp), intent(in) :: form(:), rigidity(4), flex, k(6, 6), x
       real(wp) :: n(6, 12)
 
-      real(wp) :: at(3), tip(3), carry(6, 6), g(6, 6)
+      real(wp) :: at(3), tip(3), carry(6, 6), g(6, 6), part(n_form)
 
       if (kind == kind_arc) then
-         at = arc_point(radius, x*angle)
-         tip = arc_point(radius, angle)
+         at = arc_point(form(2), x*form(3))
+         tip = arc_point(form(2), form(3))
       else
-         at = [x*length, 0.0_wp, 0.0_wp]
-         tip = [length, 0.0_wp, 0.0_wp]
+         at = x*[form(1), form(4), 0.0_wp]
+         tip = [form(1), form(4), 0.0_wp]
       end if
+      part = [x*form(1), form(2), x*form(3), x*form(4), form(5:6), &
+         & form(5:6) + x*(form(7:8) - form(5:6))]
       ! A force at the tip acts at the point with its moment; transposed, that is rigid motion.
       carry = transpose(rigid(tip - at))
-      g = matmul(tip_flexibility(kind, x*length, radius, x*angle, rigidity, flex), &
+      g = matmul(tip_flexibility(kind, part, rigidity, flex), &
          & matmul(carry, k))
       n(:, 1:6) = rigid(at) - matmul(g, rigid(tip))
       n(:, 7:12) = g

@@ -21,7 +21,7 @@ F8 = NDArray[np.float64]
 I4 = NDArray[np.int32]
 B1 = NDArray[np.bool_]
 
-STRAIGHT, ARC, SPRING = 0, 1, 2  # System.kind
+STRAIGHT, ARC, SPRING, TAPER = 0, 1, 2, 3  # System.kind
 
 
 @frozen(eq=False)
@@ -137,15 +137,18 @@ class System:
     labels : node labels; `alias` maps further labels (30 -> 30F) to node numbers.
     xyz : (n_node, 3) [m].
     ends : (n_elem, 2) node numbers.
-    kind : (n_elem,) STRAIGHT, ARC or SPRING.
+    kind : (n_elem,) STRAIGHT, ARC, SPRING (also expansion joints) or TAPER (reducers).
     axes : (n_elem, 3, 3) rows ex ey ez; ex along the pipe at the first end; on an arc ey
-        points to its centre.  Springs: the axes of their six stiffnesses.
-    length : (n_elem,) along the axis [m]; 0 for springs.
+        points to its centre, on an eccentric reducer to the offset.  Springs: the axes of their
+        six stiffnesses.
+    length : (n_elem,) along the axis [m]; 0 for springs, that of expansion joints.
     radius, angle : (n_elem,) of an arc [m, rad]; 0 elsewhere.
     rigidity : (n_elem, 4) EA [N], GJ, EI [N m2], GAs [N]; GAs = 0 is rigid in shear.
     flex : (n_elem,) factor on the bending flexibility (k of a bend), 1 on straights.
     spring : (n_elem, 6) stiffnesses of springs, at mid-distance in `axes`; 0 elsewhere.
-    od, wall : (n_elem,) pipe for stresses [m]; 0 for springs.
+    od, wall : (n_elem,) pipe for stresses [m], at the first end; 0 for springs.
+    taper : (n_elem, 3) of reducers: outside diameter and wall at the second end, and the offset of
+        the second end along ey [m]; 0 elsewhere.  Of no rows where there are no reducers.
     up : unit vector against gravity.
     snubbers : contacts that hold only where snubbers are locked; statics never see them.
     source : (n_elem,) index of Model.pipes whose properties hold; -1 for springs.
@@ -174,13 +177,16 @@ class System:
     source: I4
     mid: dict[str, int]
     snubbers: Contacts = field(default_factory=no_contacts)
+    taper: F8 = field(default_factory=lambda: np.zeros((0, 3)))
 
 
 @frozen(eq=False)
 class Loads:
     """Loads of one case (or of a fraction of it).
 
-    dist : (n_elem, 3) uniform load per length of axis, global [N/m].
+    dist : (n_elem, 3) load per length of axis, global, its mean where it varies [N/m].
+    vary : (n_elem, 2, 3) on reducers the factors of 2 s - 1 and 6 s2 - 6 s + 1 in the load per
+        length, s from 0 to 1 along the axis [N/m].  Of no rows where the system has no reducers.
     strain : (n_elem,) free axial strain (thermal and pressure).
     curvature : (n_elem,) free change of angle per length of an arc (opening < 0) [rad/m].
     nodal : (n_node, 6) [N, N m].
@@ -198,6 +204,7 @@ class Loads:
     preload: F8
     pressure: F8
     mux: float = 1.0
+    vary: F8 = field(default_factory=lambda: np.zeros((0, 2, 3)))
 
 
 def no_loads(system: System) -> Loads:
@@ -211,6 +218,7 @@ def no_loads(system: System) -> Loads:
         base=np.zeros((n_card, 6)),
         preload=np.zeros(n_card),
         pressure=np.zeros(n_elem),
+        vary=np.zeros((n_elem if len(system.taper) else 0, 2, 3)),
     )
 
 
@@ -491,6 +499,30 @@ class Spread:
     cause: str | None = None
 
 
+@frozen
+class HangerChoice:
+    """One hanger that the program selected; loads and rate of its springs together.
+
+    kind : spring, rod, constant or none.
+    hot, cold : loads in operation and cold [N]; rate [N/m]; travel upwards [m].
+    variation : rate x travel / hot load.
+    reason : why it is no spring.
+    """
+
+    node: str
+    name: str | None
+    kind: str
+    series: str
+    size: str
+    number: int
+    hot: float
+    cold: float
+    rate: float
+    travel: float
+    variation: float
+    reason: str
+
+
 @dataclass(slots=True)
 class Results:
     """All cases of one run, in the deck's order."""
@@ -503,6 +535,7 @@ class Results:
     base: System | None = None  # the system whose contacts have gaps; cases may have others
     modes: ModeSet | None = None  # where the deck asks for them
     spreads: dict[str, Spread] = field(default_factory=dict)  # where other starts were asked for
+    hangers: tuple[HangerChoice, ...] = ()  # that the program selected
 
     def __getitem__(self, name: str) -> CaseResult:
         """Return the case called `name`."""

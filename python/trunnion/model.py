@@ -113,6 +113,43 @@ class Node:
 
 
 @frozen
+class Reducer:
+    """What makes a pipe a reducer: the section at its second end.
+
+    `axis` is the direction of the pipes' axis where the run is inclined to it (eccentric); None:
+    along the run (concentric).
+    """
+
+    section: str
+    axis: tuple[float, float, float] | None = None
+
+
+@frozen
+class Joint:
+    """What makes a pipe an expansion joint: rates of the whole joint, at the middle of its length.
+
+    A None rate is rigid (DEFAULT K, KR); the lateral or bending rate of a joint with a length
+    follows from the other one.  `axis` is needed where the joint has no length.
+    """
+
+    axial: float  # [N/m]
+    lateral: float | None = None  # ends kept parallel [N/m]
+    bending: float | None = None  # moment for a relative rotation of the ends [N m/rad]
+    torsion: float | None = None  # [N m/rad]
+    area: float = 0.0  # effective area of the pressure thrust [m2]
+    axis: tuple[float, float, float] | None = None
+
+
+@frozen
+class Uniform:
+    """Uniform load of set Q1 to Q9 on a length of pipe: N/m, or in g on the weight W."""
+
+    set: str
+    load: tuple[float, float, float]
+    in_g: bool = False
+
+
+@frozen
 class Pipe:
     """A straight run between two labels; `rigid` is a stiff body with its own weight.
 
@@ -127,8 +164,21 @@ class Pipe:
     material: str
     operation: Operation = Operation()
     rigid: bool = False
-    weight: float = 0.0  # of the rigid body, all of it [N]
+    weight: float = 0.0  # of the rigid body or the expansion joint, all of it [N]
     place: Place = field(default=Place(), compare=False)
+    body: str = ""  # what a rigid is: VALVE, FLANGE; "" is RIGID
+    reducer: Reducer | None = None
+    joint: Joint | None = None
+    cut: float = 0.0  # cold spring: cut short by this length (long: < 0), in set CS [m]
+    uniform: tuple[Uniform, ...] = ()
+    offsets: tuple[tuple[float, float, float] | None, ...] = (None, None)  # node to pipe [m]
+
+    @property
+    def card(self) -> str:
+        """Keyword of its card."""
+        if self.rigid:
+            return self.body or "RIGID"
+        return "REDUCER" if self.reducer else "JOINT" if self.joint else "PIPE"
 
 
 @frozen
@@ -182,6 +232,31 @@ class Direction:
 
 
 @frozen
+class SpringSize:
+    """SPRINGSIZE: one size of the table from which hangers are selected."""
+
+    name: str
+    series: str
+    least: float  # working loads [N]
+    most: float
+    rate: float  # [N/m]
+    place: Place = field(default=Place(), compare=False)
+
+
+@frozen
+class HangerDesign:
+    """What is asked of a hanger that the program selects (HANGER ... DESIGN)."""
+
+    variation: float = 0.25  # most change of load, of the hot load
+    rod: float = 0.0025  # a rigid rod where the travel is no more [m]
+    most: float | None = None  # a constant support where it is more [m]
+    number: int = 1  # springs side by side
+    method: str = "HOT"  # the weight is balanced hot, or COLD
+    series: str | None = None  # of the table; None: all, in their order
+    operating: str | None = None  # case of the travel; None: first with weight and heat
+
+
+@frozen
 class Support:
     """One ANCHOR, SUPPORT, HANGER or one-node SPRING card.
 
@@ -201,6 +276,7 @@ class Support:
     ks: tuple[float, float, float, float, float, float] | None = None
     axis: tuple[float, float, float] | None = None  # local x of a spring's ks
     place: Place = field(default=Place(), compare=False)
+    design: HangerDesign | None = None  # of a hanger that the program selects
 
 
 @frozen
@@ -415,6 +491,7 @@ class Model:
     accelerations: list[Acceleration] = field(default_factory=list)
     winds: list[Wind] = field(default_factory=list)
     snows: list[Snow] = field(default_factory=list)
+    spring_sizes: list[SpringSize] = field(default_factory=list)
     spectra: dict[str, Spectrum] = field(default_factory=dict)
     groups: list[Group] = field(default_factory=list)
     modal: Modes | None = None  # what the MODES card asks for
@@ -457,6 +534,26 @@ class Model:
         """Add a stiff body with its own WEIGHT=."""
         self._add("RIGID", (start, end), keys)
 
+    def valve(self, start: Label, end: Label, **keys: Value) -> None:
+        """Add a valve, a stiff body with its own WEIGHT=."""
+        self._add("VALVE", (start, end), keys)
+
+    def flange(self, start: Label, end: Label, **keys: Value) -> None:
+        """Add a flange or a pair of them, a stiff body with its own WEIGHT=."""
+        self._add("FLANGE", (start, end), keys)
+
+    def reducer(self, start: Label, end: Label, **keys: Value) -> None:
+        """Add a reducer to the section TO=; AXIS= or FLAT= makes it eccentric."""
+        self._add("REDUCER", (start, end), keys)
+
+    def joint(self, start: Label, end: Label, **keys: Value) -> None:
+        """Add an expansion joint: AXIAL= LATERAL= BENDING= TORSION= AREA= WEIGHT=."""
+        self._add("JOINT", (start, end), keys)
+
+    def uniform(self, set: str, **keys: Value) -> None:
+        """Put a uniform load of set Q1 to Q9 on the pipes that follow: X= Y= Z=, or GX= GY= GZ=."""
+        self._add("UNIFORM", (set,), keys)
+
     def bend(self, node: Label, *size: str, **keys: Value) -> None:
         """Put a bend where two pipes meet: R=, or "LONG" or "SHORT"."""
         self._add("BEND", (node, *size), keys)
@@ -477,9 +574,13 @@ class Model:
         """Add a restraint: "+Y", ("GUIDE", {"GAP": 0.003}), (0.6, 0.8, 0.0); keys are common."""
         self._add("SUPPORT", (node, *directions), keys)
 
-    def hanger(self, node: Label, **keys: Value) -> None:
-        """Add a spring hanger: RATE= LOAD=."""
-        self._add("HANGER", (node,), keys)
+    def hanger(self, node: Label, *design: str, **keys: Value) -> None:
+        """Add a spring hanger: RATE= LOAD=, or "DESIGN" to have it selected."""
+        self._add("HANGER", (node, *design), keys)
+
+    def springsize(self, name: str, **keys: Value) -> None:
+        """Add a size to the table of springs: SERIES= MIN= MAX= RATE=."""
+        self._add("SPRINGSIZE", (name,), keys)
 
     def snubber(self, node: Label, direction: str | Sequence[float], **keys: Value) -> None:
         """Hold X, Y, Z or (a,b,c) in occasional cases and modes only: K= CNODE= NAME=."""

@@ -35,6 +35,7 @@ def test_table_is_complete(keyword):
 
 def test_examples_of_the_table_make_a_deck():
     own = {k.name: k.example for k in TABLE if k.name not in ("INCLUDE",)}
+    own["SECTION"] = "SECTION S6 NPS=6 SCH=40\n" + own["SECTION"]  # that of the reducer
     lines = [own.pop("TITLE"), own.pop("UNITS"), *list(own.values())]
     lines += ["PIPE 20 30 DX=6000", "PIPE 30 40 DZ=4000", "PIPE 50 70 DX=500", "PIPE 70 25 DX=500"]
     lines += ["PIPE 25 45 DY=500", "PIPE 45 60 DY=500", "CASE SUS = W"]

@@ -240,8 +240,8 @@ def test_set_that_nothing_gives_is_named(name: str) -> None:
 
 
 def test_word_that_is_no_set_is_named() -> None:
-    with pytest.raises(ModelError, match="CASE C: Q1 is not a load set"):
-        loads(model(), "Q1")
+    with pytest.raises(ModelError, match="CASE C: K1 is not a load set"):
+        loads(model(), "K1")
 
 
 def test_pipes_without_a_temperature_are_counted() -> None:

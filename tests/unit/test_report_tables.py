@@ -255,6 +255,7 @@ def test_what_is_too_long_for_one_sheet_goes_on_in_the_next(solved, book, monkey
     assert [page.title for page in parts] == [f"Forces {i + 1}" for i in range(len(parts))]
     assert len(parts) > 1
     assert [row for page in parts for row in rows_of(page)] == rows_of(book["Forces"])
+    assert all(page.row_dimensions[1].height == 21 for page in cut)
 
 
 def test_csv_has_the_same_tables_with_all_digits(solved, book):

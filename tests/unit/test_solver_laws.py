@@ -41,7 +41,7 @@ def test_quarter_bend_flexibility():
     """Castigliano on a quarter circle; x along the first tangent, y to the centre."""
     r, ea, gj, ei, gas, k = 1.3, 1.1e9, 2.3e7, 3.1e7, 4.0e8, 7.5
     f = kernels.tip_flexibility(
-        np.array([ARC], np.int32), np.array([r * pi / 2]), np.array([r]), np.array([pi / 2]),
+        np.array([ARC], np.int32), np.array([[r * pi / 2, r, pi / 2, 0.0, 0.0, 0.0, 0.0, 0.0]]),
         np.array([[ea, gj, ei, gas]]), np.array([k]),
     )[0]  # fmt: skip
     b = k * r**3 / ei

@@ -5,7 +5,16 @@ from dataclasses import replace
 
 import numpy as np
 
-from trunnion.arrays import F8, CaseResult, CycleResult, Loads, ModeSet, Results, System
+from trunnion.arrays import (
+    F8,
+    CaseResult,
+    CycleResult,
+    HangerChoice,
+    Loads,
+    ModeSet,
+    Results,
+    System,
+)
 from trunnion.cases.casetext import case_text, in_order
 from trunnion.cases.default_cases import may_be_free, with_cases
 from trunnion.cases.session import Session, same_pipe
@@ -60,9 +69,15 @@ def solve(
         The structure is impossible, or moves freely even with every contact closed.
     """
     model.check()
+    choices: tuple[HangerChoice, ...] = ()
+    if any(s.design is not None for s in model.supports):
+        from trunnion.cases.hangers import designed
+
+        model, choices = designed(model)
     try:
         run = Run(with_cases(model), starts or {}, session)
         results = run.results()
+        results.hangers = choices
     except ModelError as error:
         free = _free_modes(model)
         if free is None:

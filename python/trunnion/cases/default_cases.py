@@ -71,3 +71,10 @@ def _case(name: str, sets: list[str]) -> Case:
 
 def _name(case: str) -> Expression:
     return ("case", case)
+
+
+def is_operating(case: Case) -> bool:
+    """Tell whether a case can give travels: weight with temperature or movements, from rest."""
+    names = {term.name for term in case.terms}
+    plain = case.about is None and case.on is None and case.spectrum is None
+    return plain and bool(names & {"W", "WNC", "WW"}) and any(n[0] in "TD" for n in names)

@@ -161,6 +161,7 @@ def _together(a: Loads, lock: F8 | None, more: Loads) -> Loads:
         preload=a.preload + more.preload,
         pressure=a.pressure + more.pressure,
         mux=a.mux,
+        vary=a.vary + more.vary,
     )
 
 

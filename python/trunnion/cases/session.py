@@ -20,7 +20,8 @@ if TYPE_CHECKING:
     from trunnion.cases.analysis import Start
     from trunnion.model import Model
 
-PIPE = ("ends", "kind", "axes", "length", "radius", "angle", "rigidity", "flex", "spring", "xyz")
+PIPE = ("ends", "kind", "axes", "length", "radius", "angle", "rigidity", "flex", "spring", "xyz",
+        "taper")  # fmt: skip
 PLACES = ("node", "cnode")  # of supports: what the pattern of the stiffness stands on
 SUPPORTS = ("contacts", "sliders", "snubbers")
 

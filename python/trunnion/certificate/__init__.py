@@ -21,6 +21,7 @@ from trunnion.certificate.scales import Scale, floor, largest, measure
 
 LIMIT = 1e-9
 BLOCK = 4096  # elements at a time
+_ALONG = ("dist", "strain", "curvature", "vary")  # what Loads says of elements
 
 Where = Callable[[int], str]
 
@@ -152,12 +153,11 @@ def _cut(system: System, loads: Loads, state: State, b: slice) -> tuple[System, 
     """Give the elements of one block; nodes are shared."""
     if len(system.kind) <= BLOCK:
         return system, loads, state
-    names = ("ends", "kind", "axes", "length", "radius", "angle", "rigidity", "flex", "spring")
+    shape = ("ends", "kind", "axes", "length", "radius", "angle", "rigidity", "flex", "spring")
+    names = (*shape, "od", "wall", "taper")
     return (
         replace(system, **{name: getattr(system, name)[b] for name in names}),
-        replace(
-            loads, **{name: getattr(loads, name)[b] for name in ("dist", "strain", "curvature")}
-        ),
+        replace(loads, **{name: getattr(loads, name)[b] for name in _ALONG}),
         replace(state, end_force=state.end_force[b]),
     )
 
@@ -181,7 +181,7 @@ def _block(
     d, dist = deformation.tip_vector(system), np.array(loads.dist.T, order="C")
     sums = tip + state.end_force[:, 0].T
     sums[:3] += dist * system.length
-    sums[3:] += cross(d, tip[:3]) + deformation.load_moment(system, dist)
+    sums[3:] += cross(d, tip[:3]) + deformation.load_moment(system, dist, loads.vary)
     balance = _six(sums, scale.force, scale.moment)
 
     i, j = system.ends.T
@@ -198,7 +198,9 @@ def _block(
     v += rest.T
     wrong, reach, ei = np.zeros((3, len(i))), system.length, system.rigidity[:, 2]
     if spring.size:
+        growth = loads.strain[spring] * system.length[spring]
         v[:, spring], law[:, spring], stray = _spring(system, v, tip, d, spring)
+        v[0, spring] -= growth  # of an expansion joint
         wrong[2, spring] = stray / scale.force
     error = np.abs(v - law)
     wrong[0], wrong[1] = error[:3].max(axis=0), error[3:].max(axis=0)

@@ -1,21 +1,23 @@
 """Deformation of elements from their reported end forces: the certificate's own element law.
 
 Nothing here is shared with the solver, and no formula is: straights are written with vectors in
-global axes (a round pipe has no preferred bending axis), arcs as Gauss-Legendre integrals of
-their section strains, which to round-off are the closed forms without their cancellation.
+global axes (a round pipe has no preferred bending axis), arcs and reducers as Gauss-Legendre
+integrals of their section strains, which to round-off are the closed forms without their
+cancellation.
 Arrays are component-first, (3, n) or (6, n): rows of one component are contiguous.
 """
 
 import numpy as np
 from numpy.typing import NDArray
 
-from trunnion.arrays import ARC, F8, SPRING, STRAIGHT, Loads, System
+from trunnion.arrays import ARC, F8, SPRING, STRAIGHT, TAPER, Loads, System
 
 Index = NDArray[np.intp]
 
 # Section strains hold sines and cosines of at most twice the angle: 20 points are exact to
 # round-off up to a full circle.
 _POINT, _WEIGHT = np.polynomial.legendre.leggauss(20)
+_FINE, _FINE_WEIGHT = np.polynomial.legendre.leggauss(40)  # of reducers: rational integrands
 
 
 def cross(a: F8, b: F8) -> F8:
@@ -54,6 +56,9 @@ def tip_vector(system: System) -> F8:
         phi, radius, axes = system.angle[arc], system.radius[arc], system.axes[arc]
         along, inward = radius * np.sin(phi), radius * 2.0 * np.sin(0.5 * phi) ** 2
         d[:, arc] = along * axes[:, 0].T + inward * axes[:, 1].T
+    taper = np.flatnonzero(system.kind == TAPER)
+    if taper.size:
+        d[:, taper] += system.taper[taper, 2] * system.axes[taper, 1].T
     spring = np.flatnonzero(system.kind == SPRING)
     if spring.size:
         ends = system.ends[spring]
@@ -61,8 +66,8 @@ def tip_vector(system: System) -> F8:
     return d
 
 
-def load_moment(system: System, dist: F8) -> F8:
-    """(3, n_elem) moment of the uniform load about the first end [N m]; `dist` is (3, n)."""
+def load_moment(system: System, dist: F8, vary: F8 | None = None) -> F8:
+    """(3, n_elem) moment of the load about the first end [N m]; `dist` is (3, n)."""
     moment = cross(system.axes[:, 0].T, dist) * (0.5 * system.length**2)
     arc = np.flatnonzero(system.kind == ARC)
     if arc.size:
@@ -70,6 +75,12 @@ def load_moment(system: System, dist: F8) -> F8:
         first = _first_moment(system.angle[arc]) * system.radius[arc] ** 2
         arm = first[0] * axes[:, 0].T + first[1] * axes[:, 1].T
         moment[:, arc] = cross(arm, dist[:, arc])
+    taper = np.flatnonzero(system.kind == TAPER)
+    if taper.size:
+        lever = dist[:, taper] / 2.0
+        if vary is not None and len(vary):
+            lever = lever + vary[taper, 0].T / 6.0
+        moment[:, taper] = cross(tip_vector(system)[:, taper], system.length[taper] * lever)
     return moment
 
 
@@ -86,6 +97,9 @@ def expected(system: System, loads: Loads, tip: F8) -> F8:
     arc = np.flatnonzero(system.kind == ARC)
     if arc.size:
         v[:, arc] = _arc(system, loads, tip[:, arc], arc)
+    taper = np.flatnonzero(system.kind == TAPER)
+    if taper.size:
+        v[:, taper] = _taper(system, loads, tip[:, taper], taper)
     return v
 
 
@@ -142,3 +156,46 @@ def _arc(system: System, loads: Loads, tip: F8, at: Index) -> F8:
     weight = 0.5 * radius * phi * _WEIGHT[:, None]
     local = ((cross(kappa, arm) + epsilon) * weight).sum(axis=1), (kappa * weight).sum(axis=1)
     return np.concatenate([np.einsum("nji,jn->in", axes, x) for x in local])
+
+
+def _taper(system: System, loads: Loads, tip: F8, at: Index) -> F8:
+    """Section strains of a reducer integrated along its axis, global; (3, points, n).
+
+    Sections are normal to the axis e of the pipes and their centres on the straight line from end
+    to end.  E and G follow from the rigidities at the first end.
+    """
+    e, length = system.axes[at, 0].T[:, None], system.length[at]
+    d, q = tip_vector(system)[:, at], loads.dist[at].T[:, None]
+    linear, square = loads.vary[at].transpose(1, 2, 0)[:, :, None]
+    s = 0.5 * (1.0 + _FINE[:, None])
+    outside, inside = (
+        a + s * (b - a)
+        for a, b in (
+            (system.od[at], system.taper[at, 0]),
+            (
+                system.od[at] - 2.0 * system.wall[at],
+                system.taper[at, 0] - 2.0 * system.taper[at, 1],
+            ),
+        )
+    )
+    area, second = outside**2 - inside**2, outside**4 - inside**4
+    first_bore = system.od[at] - 2.0 * system.wall[at]
+    first_area = system.od[at] ** 2 - first_bore**2
+    first_second = system.od[at] ** 4 - first_bore**4
+    ea, gj, ei, gas = system.rigidity[at].T
+    # the load beyond s: integrals of Legendre's polynomials, once for force, twice for moment
+    left = 1.0 - s
+    force = tip[:3, None] + length * left * (q + s * (linear + (2.0 * s - 1.0) * square))
+    lever = 0.5 * left**2 * (q + linear * (1.0 + 2.0 * s) / 3.0 + square * s**2)
+    moment = tip[3:, None] + cross(d[:, None], left * tip[:3, None] + length * lever)
+    shear = np.divide(first_area, gas, out=np.zeros_like(gas), where=gas > 0.0) / area
+    along, twist = dot(force, e), dot(moment, e)
+    epsilon = along * (first_area / ea) / area * e + shear * (force - along * e)
+    bend = first_second * system.flex[at] / ei / second
+    kappa = twist * (first_second / gj) / second * e + bend * (moment - twist * e)
+    weight = 0.5 * length * _FINE_WEIGHT[:, None]
+    v = np.empty_like(tip)
+    v[:3] = ((cross(kappa, left * d[:, None]) + epsilon) * weight).sum(axis=1)
+    v[:3] += loads.strain[at] * d
+    v[3:] = (kappa * weight).sum(axis=1)
+    return v

@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Sequence, Set
 from typing import NamedTuple
 
-from trunnion.cases.default_cases import with_cases
+from trunnion.cases.default_cases import is_operating, with_cases
 from trunnion.deck import expressions as ex
 from trunnion.deck.record import Fault, Mark
 from trunnion.deck.values import nearest
@@ -20,6 +20,7 @@ def check_cases(model: Model, broken: Set[str]) -> Iterator[Fault]:
     yield from _names(named)
     yield from _load_sets(model, broken)
     yield from _spectra(model, broken)
+    yield from _hangers(model, broken)
     yield from _references(model, named, broken)
 
 
@@ -40,7 +41,7 @@ def _head(case: Named) -> str:
 
 _CARDS = {
     **{"T": "OPERATE", "P": "OPERATE", "D": "DISPLACEMENT", "F": "FORCE", "U": "ACCELERATION"},
-    **{"WIND": "WIND", "S": "SNOW"},
+    **{"WIND": "WIND", "S": "SNOW", "Q": "UNIFORM", "CS": "PIPE"},
 }
 
 
@@ -55,19 +56,43 @@ def _load_sets(model: Model, broken: Set[str]) -> Iterator[Fault]:
     given.update("F" + f.set for f in model.forces)
     given.update("U" + a.set for a in model.accelerations)
     given.update("WIND" + w.set for w in model.winds)
+    given.update("Q" + q.set for uniform in {p.uniform for p in model.pipes} for q in uniform)
+    given.update("CS" for pipe in model.pipes if pipe.cut)
     for case in model.cases:
         if not isinstance(case, Case):
             continue
         for name in dict.fromkeys(term.name for term in case.terms):
             card = _CARDS.get(name.rstrip("123456789")) if name != "U" else None
             if card and name not in given and name not in broken and card not in broken:
-                before = " before a pipe" if card == "OPERATE" else ""
+                before = " before a pipe" if card in ("OPERATE", "UNIFORM") else ""
                 message = f"no {card} card{before} gives {name}"
+                if name == "CS":
+                    message = "no PIPE card has CUTSHORT= or CUTLONG=: CS is nothing"
                 yield Fault(case.place, _head(case), message, name)
             occasional = name[0] == "U" or name.startswith("WIND")
             if occasional and case.about is None and case.snubbers is None:
                 message = f"{name} needs ABOUT=, or SNUBBERS=FREE or LOCKED"
                 yield Fault(case.place, _head(case), message, name)
+
+
+def _hangers(model: Model, broken: Set[str]) -> Iterator[Fault]:
+    """Check what hangers to be selected name: their case and their series."""
+    asked = [s for s in model.supports if s.design is not None]
+    if not asked:
+        return
+    cases = {case.name: case for case in model.cases}
+    series = {size.series for size in model.spring_sizes} or {"SHORT", "MEDIUM", "LONG"}
+    for s in asked:
+        assert s.design is not None
+        head, name = f"HANGER {s.node}", s.design.operating
+        case = cases.get(name or "")
+        if name and name not in broken and not (isinstance(case, Case) and is_operating(case)):
+            why = "has no weight with temperature or movement" if case else "is not defined"
+            message = f"case {name} {why}{'' if case else nearest(name, cases)}"
+            yield Fault(s.place, head, message, "OPERATING=")
+        if s.design.series and s.design.series not in series | broken:
+            message = f"series {s.design.series} is not one of {' '.join(sorted(series))}"
+            yield Fault(s.place, head, message, "SERIES=")
 
 
 def _spectra(model: Model, broken: Set[str]) -> Iterator[Fault]:

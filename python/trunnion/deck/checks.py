@@ -25,7 +25,7 @@ def check(model: Model, broken: Set[str] = frozenset()) -> list[Fault]:
 def _own_labels(model: Model) -> Iterator[tuple[str, Place, str]]:
     """Labels of nodes that cards define, with the head of the card."""
     for pipe in model.pipes:
-        word = "RIGID" if pipe.rigid else "PIPE"
+        word = pipe.card
         yield pipe.start, pipe.place, word
         yield pipe.end, pipe.place, word
     for spring in model.springs:
@@ -77,8 +77,8 @@ def _legs(bend: Bend, pipes: list[Pipe], model: Model) -> Iterator[Fault]:
         hint = f"; a branch starts at {node}N, {node}M or {node}F" if len(pipes) > 2 else ""
         message = f"{some} at node {node}; a bend joins two{hint}"
         yield Fault(bend.place, head, message, node)
-    elif pipes[0].rigid or pipes[1].rigid:
-        message = f"a RIGID ends at node {node}; a bend joins two pipes"
+    elif card := next((pipe.card for pipe in pipes if pipe.card != "PIPE"), None):
+        message = f"a {card} ends at node {node}; a bend joins two pipes"
         yield Fault(bend.place, head, message, node)
     elif bend.radius is not None:
         for name in dict.fromkeys(pipe.section for pipe in pipes):
@@ -143,6 +143,7 @@ def _pipes(model: Model, broken: Set[str]) -> Iterator[Fault]:
         yield Fault(Place("", 0), "", message)
     told = {"", *broken}
     used = {(pipe.section, pipe.material) for pipe in model.pipes}
+    used |= {(p.reducer.section, p.material) for p in model.pipes if p.reducer}
     if all(a in model.sections and b in model.materials for a, b in used):
         return
     for pipe in model.pipes:
@@ -152,7 +153,7 @@ def _pipes(model: Model, broken: Set[str]) -> Iterator[Fault]:
         ):
             if name not in known and name not in told:
                 told.add(name)
-                head = f"PIPE {pipe.start} {pipe.end}"
+                head = f"{pipe.card} {pipe.start} {pipe.end}"
                 message = f"{what} {name} is not defined{nearest(name, known)}"
                 yield Fault(pipe.place, head, message, f"{what.upper()}=")
 

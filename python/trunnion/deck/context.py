@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from trunnion.deck.record import Fault, Mark, Record
-from trunnion.model import Model, Operation
+from trunnion.model import Model, Operation, Uniform
 
 
 @dataclass(slots=True)
@@ -14,6 +14,7 @@ class Carried:
     section: str | None = None
     material: str | None = None
     operation: Operation = field(default_factory=Operation)
+    uniform: tuple[Uniform, ...] = ()
     defaults: dict[str, Any] = field(default_factory=dict)
     displacements: dict[tuple[str, str], int] = field(default_factory=dict)
     broken: set[str] = field(default_factory=set)  # words of faulty cards: no further errors

@@ -15,8 +15,8 @@ from trunnion.model import INFINITE, SETS, Case, Expression, Shock, Term
 MAX_NESTING = 50
 MAX_NAMES = 200  # in one expression
 LOAD_SETS = (
-    *("W", "WNC", "WW", "H", "S"),
-    *(letter + s for letter in "TPDF" for s in SETS),
+    *("W", "WNC", "WW", "H", "S", "CS"),
+    *(letter + s for letter in "TPDFQ" for s in SETS),
     *ACCELERATIONS,
     *WINDS,
 )

@@ -2,7 +2,16 @@
 
 from collections.abc import Callable
 
-from trunnion.deck import cases, dynamics, line, occasional, properties, restraints, sets
+from trunnion.deck import (
+    cases,
+    components,
+    dynamics,
+    line,
+    occasional,
+    properties,
+    restraints,
+    sets,
+)
 from trunnion.deck.context import Context
 from trunnion.deck.record import Record
 
@@ -16,12 +25,18 @@ ACTIONS: dict[str, Callable[[Context, Record], None]] = {
     "NODE": line.node,
     "PIPE": line.pipe,
     "RIGID": line.pipe,
+    "VALVE": line.pipe,
+    "FLANGE": line.pipe,
+    "REDUCER": line.pipe,
+    "JOINT": line.pipe,
+    "UNIFORM": components.uniform,
     "BEND": line.bend,
     "SPRING": line.spring,
     "MASS": line.mass,
     "ANCHOR": restraints.anchor,
     "SUPPORT": restraints.support,
     "HANGER": restraints.hanger,
+    "SPRINGSIZE": restraints.spring_size,
     "SNUBBER": restraints.snubber,
     "FORCE": sets.force,
     "DISPLACEMENT": sets.displacement,

@@ -108,6 +108,7 @@ DIRECTIONS = tuple(s + r + a for r in ("", "R") for s in ("", "+", "-") for a in
 PIPE_DIRECTIONS = ("GUIDE", "LIMIT")
 DEGREES = ("DX", "DY", "DZ", "RX", "RY", "RZ")
 ACCELERATIONS = tuple(f"U{s}" for s in SETS)
+UNIFORMS = tuple(f"Q{s}" for s in SETS)
 WINDS = tuple(f"WIND{s}" for s in SETS)
 
 _OPERATION = (
@@ -121,6 +122,20 @@ _RUN = (
     Key("DIR", "direction of the run, any length", kind="vector"),
     Key("SECTION", "section from here on", kind="name", default="the current one"),
     Key("MATERIAL", "material from here on", kind="name", default="the current one"),
+)
+_CUT = (
+    _number("CUTSHORT", "cold spring: made too short by this, set CS", "length", "0", POSITIVE),
+    _number("CUTLONG", "cold spring: made too long by this, set CS", "length", "0", POSITIVE),
+)
+_TWO = (_node("a", "first node"), _node("b", "second node"))
+_BODY = (
+    *_RUN,
+    _number("WEIGHT", "total weight of the body", "force", "0", NOT_NEGATIVE),
+    *_OPERATION,
+)
+_BODY_NOTE = (
+    "Ten times the wall of the current SECTION at the same inside diameter. It weighs WEIGHT, its "
+    "contents, and 1.75 times the insulation of the pipe; without WEIGHT it weighs nothing."
 )
 _CNODE = Key(
     "CNODE", "node that carries the support", kind="node", default="ground", card_wide=True
@@ -279,23 +294,121 @@ TABLE: tuple[Keyword, ...] = (
         "PIPE",
         "A straight pipe; at a bend it runs to the intersection of the tangents.",
         (_node("a", "first node"), _node("b", "second node")),
-        (*_RUN, *_OPERATION),
+        (*_RUN, *_CUT, *_OPERATION),
         notes=(
             "DX DY DZ, or LENGTH and DIR; with none of them both ends must have coordinates.",
             "SECTION, MATERIAL and the keys of OPERATE hold for the pipes that follow, too.",
+            "CUTSHORT and CUTLONG are cold spring: the pipe is made that much shorter or longer "
+            "than the drawing says and pulled into place. Set CS of a CASE makes it act.",
         ),
         example="PIPE 10 20 DX=6000",
     ),
     Keyword(
         "RIGID",
-        "A stiff body between two nodes with its own weight: a valve, a flange.",
-        (_node("a", "first node"), _node("b", "second node")),
+        "A stiff body between two nodes with its own weight.",
+        _TWO,
+        _BODY,
+        notes=(_BODY_NOTE,),
+        example="RIGID 40 50 DX=450 WEIGHT=2.1",
+    ),
+    Keyword(
+        "VALVE",
+        "A valve: a stiff body between two nodes with its own weight.",
+        _TWO,
+        _BODY,
+        notes=("The same as RIGID, but for its name in reports.",),
+        example="VALVE 40 50 DX=450 WEIGHT=2.1",
+    ),
+    Keyword(
+        "FLANGE",
+        "A flange or a pair of them: a stiff body between two nodes with its own weight.",
+        _TWO,
+        _BODY,
+        notes=("The same as RIGID, but for its name in reports.",),
+        example="FLANGE 50 55 DX=105 WEIGHT=0.4",
+    ),
+    Keyword(
+        "REDUCER",
+        "A reducer from the current SECTION to another, which is current from then on.",
+        _TWO,
         (
+            Key(
+                "TO",
+                "section at the second node, of an earlier SECTION",
+                kind="name",
+                required=True,
+            ),
             *_RUN,
-            _number("WEIGHT", "total weight of the body", "force", "0", NOT_NEGATIVE),
+            Key(
+                "AXIS",
+                "direction of the pipes' axis, of an eccentric one",
+                kind="vector",
+                default="along the run: concentric",
+            ),
+            _choice("FLAT", "eccentric, level above or below", ("UP", "DOWN")),
             *_OPERATION,
         ),
-        example="RIGID 40 50 DX=450 WEIGHT=2.1",
+        notes=(
+            "DX DY DZ lead from centre to centre. With FLAT they lead along the axis, which is "
+            "horizontal, and the centre of the second node comes to lie half the difference of "
+            "the outside diameters lower (FLAT=DOWN, level below, from the larger to the smaller) "
+            "or higher (FLAT=UP).",
+            "All diameters change linearly from end to end. The stiffness is the exact integral "
+            "of that, weights too; wind takes the mean width.",
+        ),
+        example="REDUCER 55 56 DX=178 TO=S6 FLAT=DOWN",
+    ),
+    Keyword(
+        "JOINT",
+        "An expansion joint: rates at the middle of its length, and pressure thrust.",
+        _TWO,
+        (
+            *_RUN,
+            _number("AXIAL", "axial rate", "stiffness", "", NOT_NEGATIVE, required=True),
+            _number(
+                "LATERAL",
+                "lateral rate, ends kept parallel",
+                "stiffness",
+                "12 BENDING/L2; without length DEFAULT K",
+                NOT_NEGATIVE,
+            ),
+            _number(
+                "BENDING",
+                "moment for a relative rotation of the ends",
+                "rotational stiffness",
+                "LATERAL L2/12; without length DEFAULT KR",
+                NOT_NEGATIVE,
+            ),
+            _number(
+                "TORSION", "torsional rate", "rotational stiffness", "DEFAULT KR", NOT_NEGATIVE
+            ),
+            _number("AREA", "effective area of the pressure thrust", "area", "0", NOT_NEGATIVE),
+            Key("AXIS", "direction of the joint", kind="vector", default="along the run"),
+            _number("WEIGHT", "total weight without contents", "force", "0", NOT_NEGATIVE),
+            *_OPERATION,
+        ),
+        notes=(
+            "Without DX DY DZ it has no length, and AXIS says its direction. A joint with a length "
+            "grows with the temperature as its MATERIAL does.",
+            "Pressure Pn of a case pushes both ends apart with Pn times AREA; tie rods and hinges "
+            "that carry it are RIGID and SPRING cards beside the joint.",
+            "Half of the weight and of the contents stands at each end.",
+        ),
+        example="JOINT 56 57 DX=300 AXIAL=180N/mm LATERAL=95N/mm AREA=62000mm2",
+    ),
+    Keyword(
+        "UNIFORM",
+        "Uniform load of set Qn on the pipes that follow, until changed; 0 ends it.",
+        (Positional("set", "set", "Q1 to Q9", UNIFORMS),),
+        (
+            *(_number(a, f"load per length along {a}", "line load", "0") for a in "XYZ"),
+            *(
+                _number(f"G{a}", f"part of the weight W along {a}, in g", "in g", "0")
+                for a in "XYZ"
+            ),
+        ),
+        notes=("Per length of the pipe's axis. X Y Z, or GX GY GZ; not both in one set.",),
+        example="UNIFORM Q1 Y=-0.5",
     ),
     Keyword(
         "BEND",
@@ -374,17 +487,58 @@ TABLE: tuple[Keyword, ...] = (
     ),
     Keyword(
         "HANGER",
-        "A spring hanger: vertical rate and cold load.",
-        (_node("node"),),
+        "A spring hanger: vertical rate and cold load, or one that the program selects.",
+        (
+            _node("node"),
+            Positional("design", "choice", "DESIGN: select it", ("DESIGN",), optional=True),
+        ),
         (
             _number("RATE", "spring rate, 0 for constant effort", "stiffness", "0", NOT_NEGATIVE),
+            _number("LOAD", "cold load, upward on the pipe", "force", "an error", NOT_NEGATIVE),
             _number(
-                "LOAD", "cold load, upward on the pipe", "force", "", NOT_NEGATIVE, required=True
+                "VARIATION", "most change of load, of the hot load", "number", "0.25", POSITIVE
+            ),
+            _number("ROD", "rigid rod up to this travel", "length", "2.5 mm", NOT_NEGATIVE),
+            _number("MAXTRAVEL", "constant support above this travel", "length", "none", POSITIVE),
+            Key("NUMBER", "springs", kind="integer", default="1", bounds=Bounds(1, 100)),
+            _choice("METHOD", "when the weight is balanced", ("HOT", "COLD"), "HOT"),
+            Key("SERIES", "series of the table", kind="name", default="all, in their order"),
+            Key(
+                "OPERATING",
+                "case that gives the travel",
+                kind="name",
+                default="the first CASE with weight, and temperature or movement",
             ),
             _CNODE,
             _NAME,
         ),
+        notes=(
+            "RATE and LOAD, or DESIGN with VARIATION to OPERATING.",
+            "DESIGN: W on rigid hangers gives the hot load; the operating case with the hot loads "
+            "as constant forces gives the travel. The first size, by series and load, that "
+            "carries hot and cold load and whose load changes by at most VARIATION is taken; a "
+            "rigid rod up to ROD, a constant support where no spring fits. It then acts in all "
+            "cases: write H in those with weight.",
+        ),
         example="HANGER 45 RATE=50N/mm LOAD=6.2",
+    ),
+    Keyword(
+        "SPRINGSIZE",
+        "One size of the table of springs for HANGER DESIGN; any such card replaces the "
+        "generic table.",
+        (Positional("name", "name", "name of the size"),),
+        (
+            Key("SERIES", "series, in the order in which they come", kind="name", required=True),
+            _number("MIN", "least working load", "force", "", NOT_NEGATIVE, required=True),
+            _number("MAX", "largest working load", "force", "", POSITIVE, required=True),
+            _number("RATE", "spring rate", "stiffness", "", POSITIVE, required=True),
+        ),
+        notes=(
+            "Without these cards the table is generic, of no maker: series SHORT, MEDIUM and LONG "
+            "with 32, 63 and 125 mm working travel, largest loads from 0.4 to 200 kN in preferred "
+            "numbers (ISO 3, R10), least load half of the largest.",
+        ),
+        example="SPRINGSIZE VS-12 SERIES=VS MIN=4.2 MAX=7.5 RATE=55N/mm",
     ),
     Keyword(
         "SNUBBER",
@@ -573,7 +727,8 @@ TABLE: tuple[Keyword, ...] = (
         flags=(("NONLINEAR", "with ABOUT: both together are solved nonlinearly, and subtracted"),),
         notes=(
             "Load sets: W weight, WNC weight without contents, WW weight with water, H cold load "
-            "of hangers, T1-T9, P1-P9, D1-D9, F1-F9, U1-U9, U(x,y,z) in g, WIND1-WIND9, S snow. "
+            "of hangers, T1-T9, P1-P9, D1-D9, F1-F9, U1-U9, U(x,y,z) in g, WIND1-WIND9, S snow, "
+            "Q1-Q9 uniform loads, CS cold spring. "
             "They are never case names.",
             "CASE with names of cases only is read as COMB.",
             "FROM starts where that case ended. ABOUT is one linear solve on the frozen contact "

@@ -1,7 +1,9 @@
 """Cards of nodes, pipes, bends, springs and masses to the model."""
 
 from math import hypot
+from typing import Any
 
+from trunnion.deck.components import cold_spring, joint, reducer
 from trunnion.deck.context import Context
 from trunnion.deck.keywords import PRESSURE_SETS, TEMPERATURE_SETS
 from trunnion.deck.properties import changed
@@ -10,6 +12,8 @@ from trunnion.deck.values import nearest
 from trunnion.model import Bend, Mass, Node, Pipe, Spring, Support
 
 _DELTA = frozenset(("DX", "DY", "DZ"))
+_BODIES = frozenset(("RIGID", "VALVE", "FLANGE"))
+_NOTHING: dict[str, Any] = {}
 _OPERATION = frozenset(("TREF", *TEMPERATURE_SETS, *PRESSURE_SETS))
 
 
@@ -21,30 +25,41 @@ def node(run: Context, record: Record) -> None:
 
 
 def pipe(run: Context, record: Record) -> None:
-    """PIPE and RIGID: a straight run with what is current."""
-    keys, carried = record.keys, run.carried
+    """PIPE, RIGID and their kin: a straight run with what is current."""
+    keys, carried, word = record.keys, run.carried, record.keyword
     start, end = record.args
     delta = _delta(run, record) if keys else None
     if not _DELTA.issuperset(keys):  # most cards have nothing else
         _make_current(run, record)
     if carried.section is None or carried.material is None:
         _miss_current(run, record)
+    section, more = carried.section or "", _NOTHING
+    if word == "REDUCER":
+        delta, more = reducer(run, record, delta)
+    elif word == "JOINT":
+        delta, more = joint(run, record, delta)
+    elif word in _BODIES:
+        more = {"body": "" if word == "RIGID" else word}
+    elif "CUTSHORT" in keys or "CUTLONG" in keys:
+        more = {"cut": cold_spring(run, record)}
     if start == end:
         run.complain(record, f"both ends are node {end}", 2)
-    elif delta == (0.0, 0.0, 0.0):
-        run.complain(record, "the pipe has no length")
+    elif delta == (0.0, 0.0, 0.0) and word != "JOINT":
+        run.complain(record, f"the {word.lower()} has no length")
     run.keep(
         run.model.pipes,
         Pipe(
             start,
             end,
             delta,
-            carried.section or "",
+            section,
             carried.material or "",
             carried.operation,
-            record.keyword == "RIGID",
+            word in _BODIES,
             keys.get("WEIGHT", 0.0),
             record.place,
+            uniform=carried.uniform,
+            **more,
         ),
     )
 

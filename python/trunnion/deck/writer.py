@@ -16,18 +16,23 @@ from trunnion.deck.case_writer import card as _card
 from trunnion.deck.keywords import KEYWORDS
 from trunnion.deck.properties import graded
 from trunnion.deck.reader import read_text
+from trunnion.deck.restraints import DESIGN_KEYS
 from trunnion.errors import DeckError, ModelError, Problem
 from trunnion.library.names import UnknownName
 from trunnion.model import (
     INFINITE,
     Bend,
     Direction,
+    HangerDesign,
     Material,
     Model,
     Operation,
+    Pipe,
     Section,
     Settings,
+    SpringSize,
     Support,
+    Uniform,
 )
 
 _WIDTH = 100
@@ -107,6 +112,7 @@ class _Writer:
         self.comments = comments
         self.units = un.derived(model.units)
         self.operation = Operation()
+        self.uniform: tuple[Uniform, ...] = ()
         self.section = next(reversed(model.sections), "")
         self.material = next(reversed(model.materials), "")
 
@@ -189,6 +195,7 @@ class _Writer:
             (model.bends, self.bend_card),
             (model.springs, self.spring_card),
             (model.masses, self.mass_card),
+            (model.spring_sizes, self.size_card),
             (model.supports, self.support_card),
             (model.displacements, self.displacement_card),
             (model.forces, self.force_card),
@@ -289,18 +296,47 @@ class _Writer:
                 values["TREF"] = new.tref
             yield _card("OPERATE", [], self.keys("OPERATE", values))
             self.operation = new
-        keyword = "RIGID" if pipe.rigid else "PIPE"
+        yield from self.uniform_cards(pipe.uniform)
+        keyword = pipe.card
         keys = []
         if pipe.delta is not None:
             keys = self.keys(keyword, dict(zip(("DX", "DY", "DZ"), pipe.delta, strict=True)), 0.0)
-        if pipe.rigid:
-            keys += self.keys(keyword, {"WEIGHT": pipe.weight}, 0.0)
+        keys += self.component_keys(pipe)
         if pipe.section != self.section:
             keys.append(("SECTION", pipe.section))
         if pipe.material != self.material:
             keys.append(("MATERIAL", pipe.material))
         self.section, self.material = pipe.section, pipe.material
+        if pipe.reducer is not None:
+            self.section = pipe.reducer.section
         yield _card(keyword, [pipe.start, pipe.end], keys)
+
+    def component_keys(self, pipe: Pipe) -> list[Pair]:
+        """Write what makes a pipe a body, a reducer or an expansion joint, and its cold spring."""
+        values: dict[str, Any] = {}
+        if pipe.rigid or pipe.joint:
+            values["WEIGHT"] = pipe.weight or None
+        if pipe.reducer is not None:
+            values |= {"TO": pipe.reducer.section, "AXIS": pipe.reducer.axis}
+        if pipe.joint is not None:
+            values |= {name.upper(): value for name, value in asdict(pipe.joint).items()}
+            values["AREA"] = pipe.joint.area or None
+        if pipe.cut:
+            values["CUTSHORT" if pipe.cut > 0.0 else "CUTLONG"] = abs(pipe.cut)
+        return self.keys(pipe.card, values)
+
+    def uniform_cards(self, new: tuple[Uniform, ...]) -> Iterator[str]:
+        """Write the uniform loads that change before a pipe; zero ends one."""
+        old = {q.set: q for q in self.uniform}
+        now = {q.set: q for q in new}
+        for name in sorted(old.keys() | now.keys()):
+            q = now.get(name, Uniform(name, (0.0, 0.0, 0.0)))
+            if q != old.get(name):
+                axes = ("GX", "GY", "GZ") if q.in_g else ("X", "Y", "Z")
+                values = dict(zip(axes, q.load, strict=True))
+                keys = self.keys("UNIFORM", values, 0.0) or [("X", "0")]
+                yield _card("UNIFORM", ["Q" + name], keys)
+        self.uniform = new
 
     def bend_card(self, bend: Bend) -> Iterator[str]:
         """Write a bend."""
@@ -333,8 +369,7 @@ class _Writer:
                 values = {"K": support.k, "KR": support.kr, **common}
                 yield _card("ANCHOR", node, self.keys("ANCHOR", values))
             case "hanger":
-                values = {"RATE": support.k or None, "LOAD": support.load, **common}
-                yield _card("HANGER", node, self.keys("HANGER", values))
+                yield self.hanger_card(support, common)
             case "snubber":
                 (direction,) = support.directions
                 word = direction.word if direction.vector is None else self.vector(direction.vector)
@@ -347,6 +382,25 @@ class _Writer:
                 common["FRICTION"] = next((d.friction for d in support.directions), None)
                 words = [*node, *(w for d in support.directions for w in self.direction(d))]
                 yield _card("SUPPORT", words, self.keys("SUPPORT", common))
+
+    def hanger_card(self, support: Support, common: dict[str, Any]) -> str:
+        """Write a hanger, given or to be selected."""
+        wanted, usual = support.design, HangerDesign()
+        if wanted is None:
+            values = {"RATE": support.k or None, "LOAD": support.load, **common}
+            return _card("HANGER", [support.node], self.keys("HANGER", values))
+        asked = {
+            key: value
+            for key, name in DESIGN_KEYS.items()
+            if (value := getattr(wanted, name)) != getattr(usual, name)
+        }
+        keys = self.keys("HANGER", {**asked, **common})
+        return _card("HANGER", [support.node, "DESIGN"], keys)
+
+    def size_card(self, size: SpringSize) -> Iterator[str]:
+        """Write one size of the table of springs."""
+        values = {"SERIES": size.series, "MIN": size.least, "MAX": size.most, "RATE": size.rate}
+        yield _card("SPRINGSIZE", [size.name], self.keys("SPRINGSIZE", values))
 
     def direction(self, direction: Direction) -> Iterator[str]:
         """Write a direction word and its keys."""

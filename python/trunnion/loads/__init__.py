@@ -8,9 +8,10 @@ import numpy as np
 from trunnion.arrays import F8, Loads, System
 from trunnion.errors import Problem
 from trunnion.frozen import frozen
+from trunnion.loads.components import cold_spring, joint_weights, thrusts, uniform_loads
 from trunnion.loads.movements import bases, idle, node_numbers
 from trunnion.loads.strains import pressure_effects, pressures, strains
-from trunnion.loads.weights import line_weights
+from trunnion.loads.weights import line_weights, skews
 from trunnion.loads.wind import snow_load, wind_loads, wind_problems, wind_remarks
 from trunnion.model import Case, Model, Term
 from trunnion.system.checks import refuse
@@ -21,7 +22,8 @@ class LoadSets:
     """Every load set of a model with factor 1, on its numbered system.
 
     weight : W, WNC, WW -> (n_elem,) weight per length of axis [N/m].
-    lump : (n_node,) weight of concentrated masses [N].
+    skew : W, WNC, WW -> (n_elem, 2) how the weight of reducers varies; see `arrays.Loads`.
+    lump : W, WNC, WW -> (n_node,) weight of concentrated masses and of expansion joints [N].
     strain : T set -> (n_elem,) free strain.
     pressure : P set -> (n_elem,) [Pa].
     elongation, opening : (n_elem,) free strain and curvature [1/m] by pressure, times EA/P.
@@ -29,12 +31,15 @@ class LoadSets:
     base : D set -> (n_card, 6) [m, rad].
     preload : (n_card,) cold load of hangers [N].
     acceleration : U set -> (3,) [g].
-    spread : WIND1 ... WIND9 and S (snow) -> (n_elem, 3) [N/m].
+    spread : WIND1 ... WIND9, S (snow) and Q1 ... Q9 (uniform) -> (n_elem, 3) [N/m].
+    thrust : P set -> (n_node, 6) of expansion joints [N].
+    cut : (n_elem,) free strain of cold spring, set CS; None where nothing is cut.
     """
 
     up: F8
     weight: Mapping[str, F8]
-    lump: F8
+    skew: Mapping[str, F8]
+    lump: Mapping[str, F8]
     strain: Mapping[str, F8]
     pressure: Mapping[str, F8]
     elongation: F8
@@ -48,6 +53,8 @@ class LoadSets:
     idle: Mapping[str, tuple[str, ...]] = field(default_factory=dict)  # D set -> moves nothing
     spread: Mapping[str, F8] = field(default_factory=dict)
     remarks: Mapping[str, tuple[str, ...]] = field(default_factory=dict)  # WIND1 ... -> remarks
+    thrust: Mapping[str, F8] = field(default_factory=dict)
+    cut: F8 | None = None
 
 
 def load_sets(model: Model, system: System) -> LoadSets:
@@ -60,9 +67,12 @@ def load_sets(model: Model, system: System) -> LoadSets:
     spread = {name: found.load for name, found in winds.items()}
     if model.snows:
         spread["S"] = snow_load(model, system)
+    weight = line_weights(model, system)
+    spread |= uniform_loads(model, system, weight["W"])
     sets = LoadSets(
         up=system.up,
-        weight=line_weights(model, system),
+        weight=weight,
+        skew=skews(model, system),
         lump=_lumps(model, system),
         strain=strain,
         pressure=pressures(model, system),
@@ -77,6 +87,8 @@ def load_sets(model: Model, system: System) -> LoadSets:
         idle=idle(model, system),
         spread=spread,
         remarks={name: wind_remarks(system, found) for name, found in winds.items()},
+        thrust=thrusts(model, system),
+        cut=cold_spring(model, system),
     )
     for case in model.cases:
         if isinstance(case, Case):
@@ -97,19 +109,24 @@ def case_loads(model: Model, system: System, case: Case, sets: LoadSets | None =
     dist, nodal = np.zeros((n_elem, 3)), np.zeros((n_node, 6))
     strain, pressure = np.zeros(n_elem), np.zeros(n_elem)
     base, preload = np.zeros((n_card, 6)), np.zeros(n_card)
+    vary = np.zeros((n_elem if len(system.taper) else 0, 2, 3))
     for term in case.terms:
         f, name, which = term.factor, term.name, term.name[1:]
         if name in sets.weight:
             dist -= np.outer(f * sets.weight[name], sets.up)
-            nodal[:, :3] -= np.outer(f * sets.lump, sets.up)
+            nodal[:, :3] -= np.outer(f * sets.lump[name], sets.up)
+            vary -= f * sets.skew[name][:, :, None] * sets.up
         elif name in sets.spread:
             dist += f * sets.spread[name]
         elif name == "H":
             preload += f * sets.preload
+        elif name == "CS":
+            strain += f * (0.0 if sets.cut is None else sets.cut)
         elif name[0] == "T":
             strain += f * sets.strain[which]
         elif name[0] == "P":
             pressure += f * sets.pressure[which]
+            nodal += f * sets.thrust.get(which, 0.0)
         elif name[0] == "D":
             base += f * sets.base[which]
         elif name[0] == "F":
@@ -117,7 +134,8 @@ def case_loads(model: Model, system: System, case: Case, sets: LoadSets | None =
         else:
             a = f * _acceleration(sets, term)
             dist += np.outer(sets.weight["W"], a)
-            nodal[:, :3] += np.outer(sets.lump, a)
+            nodal[:, :3] += np.outer(sets.lump["W"], a)
+            vary += sets.skew["W"][:, :, None] * a
     ea = system.rigidity[:, 0]
     per_ea = pressure / np.where(ea > 0.0, ea, 1.0)
     return Loads(
@@ -129,6 +147,7 @@ def case_loads(model: Model, system: System, case: Case, sets: LoadSets | None =
         preload=preload,
         pressure=pressure,
         mux=case.mux,
+        vary=vary,
     )
 
 
@@ -169,7 +188,9 @@ def missing_sets(sets: LoadSets, case: Case) -> list[Problem]:
             continue
         if name == "U" and term.vector is not None:
             continue
-        known = name == "S" or name[:4] == "WIND"
+        if name == "CS" and sets.cut is not None:
+            continue
+        known = name in ("S", "CS") or name[:4] == "WIND" or name[:1] == "Q"
         if not known and (name[:1] not in homes or not name[1:]):
             problems.append(Problem(case.place, f"CASE {case.name}: {name} is not a load set"))
         elif known or name[1:] not in homes[name[0]]:
@@ -184,12 +205,12 @@ def _acceleration(sets: LoadSets, term: Term) -> F8:
     return sets.acceleration[term.name[1:]]
 
 
-def _lumps(model: Model, system: System) -> F8:
+def _lumps(model: Model, system: System) -> dict[str, F8]:
     lump = np.zeros(len(system.xyz))
     node = node_numbers(system)
     for mass in model.masses:
         lump[node[mass.node]] += model.settings.g * mass.mass
-    return lump
+    return {name: lump + weight for name, weight in joint_weights(model, system).items()}
 
 
 def _forces(model: Model, system: System) -> dict[str, F8]:

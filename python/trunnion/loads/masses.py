@@ -7,8 +7,9 @@ import numpy as np
 
 from trunnion.arrays import F8, I4, System
 from trunnion.frozen import frozen
+from trunnion.loads.components import joint_weights
 from trunnion.loads.movements import node_numbers
-from trunnion.loads.weights import line_weights
+from trunnion.loads.weights import between, line_weights
 from trunnion.model import Material, Model, Pipe, Section
 
 
@@ -43,6 +44,9 @@ def model_masses(model: Model, system: System) -> Masses:
     rows: list[tuple[float, float]] = []
     for pipe in model.pipes:
         key = (pipe.section, pipe.material, pipe.rigid, pipe.weight)
+        if pipe.joint or pipe.reducer:
+            rows.append(_component_inertia(model, pipe))
+            continue
         if key not in known:
             section, material = model.sections[pipe.section], model.materials[pipe.material]
             known[key] = _section_inertia(pipe, section, material)
@@ -54,11 +58,19 @@ def model_masses(model: Model, system: System) -> Masses:
     own = bodies[system.source] / model.settings.g / length
     across = own * (system.od**2 + (system.od - 2.0 * system.wall) ** 2) / 16.0
     inertia = inertia + across[:, None] * np.array([2.0, 1.0])
-    lump = np.zeros(len(system.labels))
+    lump = joint_weights(model, system)["W"] / model.settings.g
     node = node_numbers(system)
     for mass in model.masses:
         lump[node[mass.node]] += mass.mass
     return Masses(line, np.ascontiguousarray(inertia), lump)
+
+
+def _component_inertia(model: Model, pipe: Pipe) -> tuple[float, float]:
+    """Rotary inertia of a reducer half way along it; an expansion joint has none."""
+    if pipe.reducer is None:
+        return 0.0, 0.0
+    ends = (model.sections[name] for name in (pipe.section, pipe.reducer.section))
+    return _section_inertia(pipe, between(*ends), model.materials[pipe.material])
 
 
 def _section_inertia(pipe: Pipe, section: Section, material: Material) -> tuple[float, float]:

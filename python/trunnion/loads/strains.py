@@ -3,9 +3,11 @@
 from math import pi
 
 import numpy as np
+from numpy.typing import NDArray
 
-from trunnion.arrays import ARC, F8, System
+from trunnion.arrays import ARC, F8, TAPER, System
 from trunnion.errors import Problem
+from trunnion.forms import BORE2, forms, part_of, rigidity_at
 from trunnion.loads.expansion import OutsideTableError, free_strain
 from trunnion.model import Model
 
@@ -69,8 +71,22 @@ def pressure_effects(model: Model, system: System) -> tuple[F8, F8]:
     nu = np.array([*(model.materials[p.material].nu for p in model.pipes), 0.0])[system.source]
     bore = system.od - 2.0 * system.wall
     thrust = 0.25 * pi * bore**2
+    narrow = np.flatnonzero(system.kind == TAPER)
+    if narrow.size:
+        thrust[narrow] = _mean_thrust(system, narrow)
     elongation = thrust * (1.0 - 2.0 * nu)
     arcs = system.kind == ARC
     if settings.bourdon == "OPENING" and arcs.any():
         return elongation, np.where(arcs, -thrust / np.where(arcs, system.radius, 1.0), 0.0)
     return elongation, nothing
+
+
+def _mean_thrust(system: System, at: NDArray[np.intp]) -> F8:
+    """Bore area over EA, mean along reducers, times EA of their first end [m2]."""
+    form, rigidity = forms(system)[at], system.rigidity[at]
+    x, w = np.polynomial.legendre.leggauss(24)
+    mean = np.zeros(len(at))
+    for s, weight in zip(0.5 * (1.0 + x), 0.5 * w, strict=True):
+        bore = part_of(form, 0.0, s)[:, BORE2]
+        mean += weight * 0.25 * pi * bore**2 * rigidity[:, 0] / rigidity_at(form, rigidity, s)[:, 0]
+    return mean

@@ -21,7 +21,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from trunnion.arrays import ARC, F8, STRAIGHT, System
+from trunnion.arrays import ARC, F8, SPRING, System
 from trunnion.errors import Problem
 from trunnion.frozen import frozen
 from trunnion.loads.asce7 import (
@@ -78,7 +78,7 @@ def wind_load(model: Model, system: System, wind: Wind) -> WindLoad:
     toward = np.array(wind.direction) / np.linalg.norm(wind.direction)
     n = len(width)
     pressure, force, change = np.zeros(n), np.zeros((n, 3)), np.zeros(n)
-    at = np.flatnonzero((system.kind == STRAIGHT) & (width > 0.0))
+    at = np.flatnonzero((system.kind != SPRING) & (system.kind != ARC) & (width > 0.0))
     pressure[at] = _mean_pressure(wind, height[at])
     force[at] = pressure[at, None] * _cross_flow(toward, system.axes[at, 0])
     between = height[at, :1] + np.diff(height[at]) * np.linspace(0.0, 1.0, 9)
@@ -109,11 +109,16 @@ def snow_load(model: Model, system: System) -> F8:
 def widths(model: Model, system: System) -> F8:
     """Diameter of pipe and insulation (n_elem,) [m].
 
-    A rigid has that of its own SECTION; 0 for a rigid without weight, a construction aid that
-    is not there, and for springs.
+    A rigid has that of its own SECTION, a reducer the mean of its ends; 0 for a rigid without
+    weight, a construction aid that is not there, for springs and expansion joints.
     """
     cover = {name: s.od + 2.0 * s.insulation for name, s in model.sections.items()}
-    rows = [0.0 if p.rigid and p.weight == 0.0 else cover[p.section] for p in model.pipes]
+    rows = [
+        0.0 if p.joint or (p.rigid and p.weight == 0.0) else cover[p.section] for p in model.pipes
+    ]
+    for i, pipe in enumerate(model.pipes):
+        if pipe.reducer is not None:
+            rows[i] = 0.5 * (rows[i] + cover[pipe.reducer.section])
     found: F8 = np.array([*rows, 0.0])[system.source]
     return found
 

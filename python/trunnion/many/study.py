@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from trunnion.arrays import B1, F8, I4, System
 from trunnion.cases.default_cases import with_cases
+from trunnion.cases.hangers import designed
 from trunnion.errors import ModelError, Problem
 from trunnion.many.axes import Axis, combinations, read_axes
 from trunnion.many.forked import run_forked
@@ -110,7 +111,7 @@ def study(
     DeckError, ModelError
         The deck itself is wrong, or no variant of it can be built.
     """
-    model = with_cases(model)
+    model = designed(with_cases(model))[0]
     axes = read_axes(model, vary)
     base = prepare(model, axes, [name.upper() for name in cases], warm=warm)
     every = combinations(axes)

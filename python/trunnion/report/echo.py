@@ -9,6 +9,7 @@ from trunnion.arrays import ARC, System
 from trunnion.cases.default_cases import may_be_free, with_cases
 from trunnion.model import Case, Comb, Model
 from trunnion.report.columns import Column, integers, numbers, plain, section, table, words, wrapped
+from trunnion.report.components import component_echo
 from trunnion.report.dynamics import cycle_text, dynamic_echo, spectrum_options
 from trunnion.report.props import support_echo
 from trunnion.report.units import ReportUnits
@@ -25,6 +26,7 @@ def input_echo(model: Model, system: System, texts: Mapping[str, str], units: Re
             _nodes(system, units),
             _elements(system, units),
             _bends(system, units),
+            component_echo(model, system, units),
             support_echo(model, system, units),
             _operations(model, units),
             _loads(model, units),
@@ -213,6 +215,7 @@ def _loads(model: Model, units: ReportUnits) -> str:
         columns = [
             words("FROM", [p.start for p in bodies]),
             words("TO", [p.end for p in bodies]),
+            words("TYPE", [p.card.lower() for p in bodies]),
             numbers("WEIGHT", [p.weight for p in bodies], units.force),
         ]
         text += section("RIGID BODIES") + table(columns)

@@ -119,10 +119,10 @@ def _sheet(book: "Workbook", page: "Worksheet", sheet: Sheet, title: str, styles
     wide = [_width(column) for column in sheet.columns]
     for i, width in enumerate(wide):
         page.set_column(i, i, width)
+    page.set_row(0, 21)  # before any cell: in a large book rows leave the memory when written
+    page.set_row(HEADS, 18)
     page.write_string(0, 0, f"{title}: {sheet.title}" if title else sheet.title, styles.title)
     page.write_string(1, 0, sheet.note, styles.note)
-    page.set_row(0, 21)
-    page.set_row(HEADS, 18)
     for i, column in enumerate(sheet.columns):
         page.write_string(HEADS, i, column.head, styles.head[column.decimals is not None])
     for i, column in enumerate(sheet.columns):

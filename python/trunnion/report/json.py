@@ -11,6 +11,7 @@ import numpy as np
 from trunnion.arrays import F8, CaseResult, Certificate, Results, System
 from trunnion.model import Model
 from trunnion.report.encode import dump, finite, lines, listing, records, rows, short, words
+from trunnion.report.hangers import selection_entries
 from trunnion.report.json_modes import mode_entries
 from trunnion.report.json_runs import cycle_entries, envelope_entries, frozen_entries
 from trunnion.report.json_supports import support_entries
@@ -45,6 +46,8 @@ def json_report(results: Results, model: Model | None = None) -> bytes:
         parts["spread"] = spread_entries(results)
     if model is not None and model.winds:
         parts["winds"] = wind_entries(model, results.system)
+    if results.hangers:
+        parts["hangers"] = selection_entries(results.hangers)
     parts["modes"] = dump({"frequency_hz": []})
     if results.modes is not None:
         parts["modes"] = mode_entries(results.modes, results.system)

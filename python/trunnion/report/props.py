@@ -26,7 +26,9 @@ def support_echo(model: Model, system: System, units: ReportUnits) -> str:
     if len(system.snubbers.k):
         text += section("SNUBBERS", "free but in cases with ABOUT and in modes; - K: rigid")
         text += _snubbers(system, units)
-    if hangers := [s for s in model.supports if s.kind == "hanger"]:
+    if asked := [s for s in model.supports if s.design is not None]:
+        text += section("HANGERS TO BE SELECTED") + _asked(asked, units)
+    if hangers := [s for s in model.supports if s.kind == "hanger" and s.design is None]:
         text += section("SPRING HANGERS") + _hangers(hangers, units)
     return text
 
@@ -102,6 +104,24 @@ def _hangers(cards: Sequence[Support], units: ReportUnits) -> str:
         words("CNODE", [s.cnode for s in cards]),
         _given("RATE", [s.k for s in cards], units.stiffness, 14),
         numbers("COLD LOAD", [s.load for s in cards], units.force, 12),
+        integers("LINE", [s.place.line for s in cards]),
+        words("  NAME", [f"  {s.name or ''}" for s in cards]),
+    ]
+    return table(columns)
+
+
+def _asked(cards: Sequence[Support], units: ReportUnits) -> str:
+    wanted = [s.design for s in cards if s.design is not None]
+    columns = [
+        words("NODE", [s.node for s in cards]),
+        words("CNODE", [s.cnode for s in cards]),
+        plain("VARIATION", [100.0 * d.variation for d in wanted], 1, 11, "[%]"),
+        numbers("ROD TO", [d.rod for d in wanted], units.movement, 10),
+        numbers("CONSTANT FROM", [d.most or np.nan for d in wanted], units.movement, 15),
+        integers("NUMBER", [d.number for d in wanted]),
+        words("METHOD", [d.method for d in wanted]),
+        words("SERIES", [d.series or "all" for d in wanted]),
+        words("OPERATING", [d.operating or "first" for d in wanted]),
         integers("LINE", [s.place.line for s in cards]),
         words("  NAME", [f"  {s.name or ''}" for s in cards]),
     ]

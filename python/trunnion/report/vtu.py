@@ -12,11 +12,12 @@ from tempfile import TemporaryDirectory
 import numpy as np
 from numpy.typing import NDArray
 
-from trunnion.arrays import ARC, F8, SPRING, CaseResult, Results, System
+from trunnion.arrays import ARC, F8, SPRING, TAPER, CaseResult, Results, System
 from trunnion.frozen import frozen
 from trunnion.model import Model
 from trunnion.results.balance import section_forces
 from trunnion.results.interior import places, points
+from trunnion.results.stresses import RIGID as BODIES
 from trunnion.results.stresses import pipe_elements, pipe_stresses
 from trunnion.results.supports import (
     card_forces,
@@ -30,7 +31,7 @@ from trunnion.results.supports import (
 
 PARTS = 8  # of a straight pipe
 DEGREES = 5.0  # most angle of one part of a bend
-RIGID = 3  # kind of a rigid body; 0, 1, 2 are those of System.kind
+RIGID, REDUCER = 3, 4  # kinds of cells; 0, 1, 2 are those of System.kind
 NO_STATE = -1  # of a restraint in a combination
 
 Data = dict[str, NDArray[np.generic] | tuple[F8, ...]]
@@ -118,11 +119,12 @@ def _pipes(case: CaseResult) -> bytes:
         "radius": 0.5 * od,
         "fraction": lines.fraction,
     }
-    rigid = np.array([part.type == "rigid" for part in system.parts])
+    rigid = np.array([part.type in BODIES for part in system.parts])
+    taper = system.kind == TAPER
     force = state.end_force
     cells: Data = {
         "element": np.arange(len(system.kind), dtype=np.int32),
-        "kind": np.where(rigid, RIGID, system.kind).astype(np.int32),
+        "kind": np.where(rigid, RIGID, np.where(taper, REDUCER, system.kind)).astype(np.int32),
         "force_from": _vector(force[:, 0, :3]),
         "moment_from": _vector(force[:, 0, 3:]),
         "force_to": _vector(force[:, 1, :3]),

@@ -15,7 +15,7 @@ def load_sum(system: System, loads: Loads) -> F8:
     """
     weight = loads.dist * system.length[:, None]
     start = system.xyz[system.ends[:, 0]]
-    about = np.cross(start, weight) + load_moment(system, loads.dist.T).T
+    about = np.cross(start, weight) + load_moment(system, loads.dist.T, loads.vary).T
     total: F8 = loads.nodal.sum(axis=0)
     total[:3] += weight.sum(axis=0)
     total[3:] += np.cross(system.xyz, loads.nodal[:, :3]).sum(axis=0) + about.sum(axis=0)

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trunnion.arrays import ARC, F8, I4, SPRING, STRAIGHT, CaseResult, Loads, System
+from trunnion.forms import OFFSET, forms, part_load, part_of
 from trunnion.frozen import frozen
 
 Index = NDArray[np.integer]
@@ -98,16 +99,17 @@ def _cantilever(
     if len(element) == 0:
         return tip, tip
     kind, axes = system.kind[element], system.axes[element]
-    length, radius = system.length[element] * fraction, system.radius[element]
-    angle = system.angle[element] * fraction
+    form = part_of(forms(system)[element], 0.0, fraction)
     rigidity, flex = system.rigidity[element], system.flex[element]
     strain, curvature = loads.strain[element], loads.curvature[element]
-    dist = _turn(axes, loads.dist[element])
-    load = tip_resultant(kind, length, radius, angle, dist)
+    vary = loads.vary[element] if len(loads.vary) else loads.vary
+    dist = part_load(loads.dist[element], vary, fraction)
+    dist = np.ascontiguousarray(np.einsum("nij,npj->npi", axes, dist))
+    load = tip_resultant(kind, form, dist)
     tip[:, :3] = -_turn(axes, end[:, :3]) - load[:, :3]
     tip[:, 3:] = -_turn(axes, end[:, 3:]) - load[:, 3:] - np.cross(arm, tip[:, :3])
-    f = tip_flexibility(kind, length, radius, angle, rigidity, flex)
-    v = tip_deformation(kind, length, radius, angle, rigidity, flex, dist, strain, curvature)
+    f = tip_flexibility(kind, form, rigidity, flex)
+    v = tip_deformation(kind, form, rigidity, flex, dist, strain, curvature)
     v += np.einsum("nij,nj->ni", f, tip)
     return tip, v
 
@@ -132,7 +134,8 @@ def _position(system: System, element: Index, fraction: F8) -> F8:
     radius, t = system.radius[element], system.angle[element] * fraction
     at = np.zeros((len(fraction), 3))
     at[:, 0] = np.where(arc, radius * np.sin(t), system.length[element] * fraction)
-    at[:, 1] = np.where(arc, 2.0 * radius * np.sin(0.5 * t) ** 2, 0.0)
+    offset = forms(system)[element, OFFSET] * fraction
+    at[:, 1] = np.where(arc, 2.0 * radius * np.sin(0.5 * t) ** 2, offset)
     return at
 
 

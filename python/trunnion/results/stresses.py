@@ -14,10 +14,12 @@ inner wall (radial stress -p) and on the outer; the largest of the six points is
 import numpy as np
 from numpy.typing import NDArray
 
-from trunnion.arrays import F8, SPRING, CaseResult, System
+from trunnion.arrays import F8, SPRING, TAPER, CaseResult, System
 from trunnion.frozen import frozen
 from trunnion.results.balance import section_forces
 from trunnion.results.interior import mid_points
+
+RIGID = ("rigid", "valve", "flange")  # bodies whose stresses are not those of a pipe
 
 
 @frozen(eq=False)
@@ -113,7 +115,7 @@ def _combined(along: F8, around: F8, radial: F8, shear: F8) -> tuple[F8, F8, F8,
 
 def pipe_elements(system: System) -> NDArray[np.intp]:
     """Numbers of the elements that have pipe stresses: no springs and no rigid bodies."""
-    rigid = np.array([part.type == "rigid" for part in system.parts], bool)
+    rigid = np.array([part.type in RIGID for part in system.parts], bool)
     return np.flatnonzero((system.kind != SPRING) & (system.od > 0.0) & ~rigid)
 
 
@@ -127,6 +129,10 @@ def end_stresses(case: CaseResult) -> tuple[NDArray[np.intp], Stresses, Stresses
     pressure = np.zeros(len(element)) if case.loads is None else case.loads.pressure[element]
     force = section_forces(case)[element]
     first = pipe_stresses(od, wall, force[:, 0], pressure)
+    if len(system.taper):
+        narrow = system.kind[element] == TAPER
+        od = np.where(narrow, system.taper[element, 0], od)
+        wall = np.where(narrow, system.taper[element, 1], wall)
     return element, first, pipe_stresses(od, wall, force[:, 1], pressure)
 
 

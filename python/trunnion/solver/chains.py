@@ -11,7 +11,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from trunnion import kernels
-from trunnion.arrays import ARC, B1, F8, I4, STRAIGHT, Contacts, Sliders, System
+from trunnion.arrays import B1, F8, I4, SPRING, Contacts, Sliders, System
+from trunnion.forms import forms
 
 APART = 1e5  # ratio of bending stiffnesses EI/L³ at a node at which a chain ends
 LONGEST = 64  # elements of a chain: its forces are carried from end to end, so round-off grows
@@ -51,7 +52,7 @@ class Chains:
 def find_chains(system: System) -> Chains:
     """Chains of a system; nodes with contacts, sliders or snubbers stay."""
     n, rigid = len(system.labels), system.rigidity[:, :3]
-    joins = ((system.kind == STRAIGHT) | (system.kind == ARC)) & (system.length > 0.0)
+    joins = (system.kind != SPRING) & (system.length > 0.0)
     joins &= (rigid > 0.0).all(axis=1) & (system.flex > 0.0)
     keep = np.zeros(n, np.int32)
     held = (system.contacts, system.sliders, system.snubbers)
@@ -88,14 +89,13 @@ def _uneven(system: System, ends: I4, joins: B1) -> B1:
 
 def _flexibilities(s: System, joins: B1) -> F8:
     """Tip flexibility of the elements that may join; zero of the rest."""
+    form = forms(s)
     if joins.all():
-        return kernels.tip_flexibility(s.kind, s.length, s.radius, s.angle, s.rigidity, s.flex)
+        return kernels.tip_flexibility(s.kind, form, s.rigidity, s.flex)
     at, f = np.flatnonzero(joins), np.zeros((len(joins), 6, 6))
     if len(at):
-        length, radius, angle, rigidity, flex = (
-            np.ascontiguousarray(a[at]) for a in (s.length, s.radius, s.angle, s.rigidity, s.flex)
-        )
-        f[at] = kernels.tip_flexibility(s.kind[at], length, radius, angle, rigidity, flex)
+        form, rigidity, flex = (np.ascontiguousarray(a[at]) for a in (form, s.rigidity, s.flex))
+        f[at] = kernels.tip_flexibility(s.kind[at], form, rigidity, flex)
     return f
 
 

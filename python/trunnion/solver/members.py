@@ -9,7 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from trunnion import kernels
-from trunnion.arrays import ARC, F8, I4, SPRING, Loads, System
+from trunnion.arrays import F8, I4, Loads, System
+from trunnion.forms import forms, part_load, tip_vectors
 from trunnion.solver.chains import Chains, find_chains
 from trunnion.solver.quantities import Forcing, Inside, Point
 
@@ -23,7 +24,8 @@ class Members:
     ends : (n_member, 2) node numbers of the equations.
     axes : (n_member, 3, 3), d : (n_member, 3) from base to tip [m], k : (n_member, 6, 6) tip
         stiffness in `axes`.
-    form, arm : (n_elem, 3) length, radius and angle; vector from end to end [m], of elements.
+    form : (n_elem, 8) of elements, see `forms`.
+    arm : (n_elem, 3) vector from end to end [m].
     chains : None where every element is a member.
     """
 
@@ -43,7 +45,8 @@ class Members:
 
 def whole_members(system: System) -> Members:
     """Every element a member."""
-    form, arm = _forms(system), _arms(system)
+    form = forms(system)
+    arm = tip_vectors(system, form)
     k = _stiffness(system, form, arm)
     ends = np.ascontiguousarray(system.ends, np.int32)
     return Members(ends, system.axes, arm, k, form, arm, None)
@@ -57,7 +60,8 @@ def chain_members(system: System) -> Members:
     n_chain = len(chains.base)
     if n_chain == len(system.kind):
         return whole_members(system)
-    form, arm = _forms(system), _arms(system)
+    form = forms(system)
+    arm = tip_vectors(system, form)
     k = np.zeros((n_chain, 6, 6))
     alone = chains.alone
     which = chains.element[chains.first[alone]]
@@ -78,7 +82,7 @@ def member_loads(members: Members, system: System, loads: Loads) -> tuple[F8, F8
             system.rigidity,
             system.flex,
             system.axes,
-            np.ascontiguousarray(loads.dist),
+            part_load(loads.dist, loads.vary, np.ones(members.elements)),
             loads.strain,
             loads.curvature,
         )
@@ -173,10 +177,6 @@ def member_end_forces(members: Members, forcing: Forcing, point: Point, r: F8) -
     )
 
 
-def _forms(s: System) -> F8:
-    return np.column_stack((s.length, s.radius, s.angle))
-
-
 def _stiffness(s: System, form: F8, arm: F8, which: I4 | None = None) -> F8:
     """Tip stiffness of all elements or some, their own axes."""
     if which is None:
@@ -185,12 +185,3 @@ def _stiffness(s: System, form: F8, arm: F8, which: I4 | None = None) -> F8:
         np.ascontiguousarray(a[which]) for a in (form, s.rigidity, s.flex, s.spring, s.axes, arm)
     )
     return kernels.element_stiffness(s.kind[which], form, rigidity, flex, spring, axes, arm)
-
-
-def _arms(s: System) -> F8:
-    """(n_elem, 3) from the first to the second end; large coordinates would cost digits [m]."""
-    along = np.where(s.kind == ARC, s.radius * np.sin(s.angle), s.length)
-    inward = s.radius * 2.0 * np.sin(0.5 * s.angle) ** 2
-    d = along[:, None] * s.axes[:, 0] + inward[:, None] * s.axes[:, 1]
-    apart = s.xyz[s.ends[:, 1]] - s.xyz[s.ends[:, 0]]
-    return np.ascontiguousarray(np.where((s.kind == SPRING)[:, None], apart, d))

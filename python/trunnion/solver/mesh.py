@@ -11,7 +11,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from trunnion.arrays import ARC, F8, I4, SPRING, Part, System
+from trunnion.arrays import ARC, F8, I4, SPRING, TAPER, Part, System
+from trunnion.forms import BORE, BORE2, OD, OD2, OFFSET, forms, rigidity_at
+from trunnion.forms import part_of as form_of_part
 
 Index = NDArray[np.integer]
 
@@ -88,7 +90,7 @@ def _cut(system: System, part_of: I4, number: Index, count: I4, begin: Index) ->
     for e, i in zip(part_of[n:].tolist(), number[n:].tolist(), strict=True):
         a, b = (system.labels[k] for k in system.ends[e])
         labels.append(f"{a}-{b}/{e}.{i}")  # no label of a deck has a hyphen
-    return replace(
+    cut_system = replace(
         system,
         labels=tuple(labels),
         xyz=xyz,
@@ -107,6 +109,24 @@ def _cut(system: System, part_of: I4, number: Index, count: I4, begin: Index) ->
         source=system.source[part_of],
         mid={},
     )
+    return _cut_tapers(cut_system, system, part_of, fraction, fraction + share)
+
+
+def _cut_tapers(parts: System, whole: System, element: I4, start: F8, end: F8) -> System:
+    """Give parts of reducers their own diameters, offsets and rigidities."""
+    at = np.flatnonzero(parts.kind == TAPER)
+    if not at.size:
+        return replace(parts, taper=parts.taper[:0])
+    form = forms(whole)[element[at]]
+    part = form_of_part(form, start[at], end[at])
+    taper, rigidity = np.zeros((len(element), 3)), parts.rigidity.copy()
+    taper[at] = np.column_stack(
+        (part[:, OD2], 0.5 * (part[:, OD2] - part[:, BORE2]), part[:, OFFSET])
+    )
+    rigidity[at] = rigidity_at(form, whole.rigidity[element[at]], start[at])
+    od, wall = parts.od.copy(), parts.wall.copy()
+    od[at], wall[at] = part[:, OD], 0.5 * (part[:, OD] - part[:, BORE])
+    return replace(parts, taper=taper, rigidity=rigidity, od=od, wall=wall)
 
 
 def _points(system: System, element: I4, fraction: F8) -> F8:

@@ -50,6 +50,7 @@ def _build(model: Model) -> System:
         spring=elements.spring,
         od=elements.od,
         wall=elements.wall,
+        taper=elements.taper,
         parts=parts,
         contacts=supports.contacts,
         sliders=supports.sliders,

@@ -82,8 +82,9 @@ def find_legs(model: Model, problems: list[Problem]) -> dict[str, Legs]:
         elif len(pipes) < 2:
             text = f"{name}: a bend joins two pipes, here are: {names}"
             problems.append(Problem(bend.place, text))
-        elif any(model.pipes[i].rigid for i in pipes):
-            text = f"{name}: a rigid cannot be the tangent of a bend ({names}); put a pipe between"
+        elif any(model.pipes[i].card != "PIPE" for i in pipes):
+            card = next(c for i in pipes if (c := model.pipes[i].card) != "PIPE").lower()
+            text = f"{name}: a {card} cannot be the tangent of a bend ({names}); put a pipe between"
             problems.append(Problem(bend.place, text))
         elif bend.radius is not None and not bend.radius > 0.0:
             problems.append(Problem(bend.place, f"{name}: the radius must be positive"))

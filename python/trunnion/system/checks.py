@@ -3,9 +3,12 @@
 from math import inf, isfinite
 
 from trunnion.errors import ModelError, Problem
-from trunnion.model import Material, Model, Place, Section
+from trunnion.model import Joint, Material, Model, Pipe, Place, Reducer, Section
 from trunnion.system.bends import pipe_name
-from trunnion.system.vectors import size
+from trunnion.system.vectors import dot, size
+
+MOST_TAPER = 10.0  # ratio of diameters up to which the quadrature of reducers is exact
+STEEPEST = 0.5  # cosine between a reducer's axis and its run
 
 
 def check_model(model: Model) -> list[Problem]:
@@ -119,13 +122,49 @@ def _pipes(model: Model, problems: list[Problem]) -> None:
             bad.append(f"section {pipe.section!r} is not defined")
         if pipe.material not in materials:
             bad.append(f"material {pipe.material!r} is not defined")
-        if pipe.delta is not None and not 0.0 < size(pipe.delta) < inf:
+        least = -1.0 if pipe.joint else 0.0  # an expansion joint may have no length
+        if pipe.delta is not None and not least < size(pipe.delta) < inf:
             bad.append("has no length")
+        if pipe.reducer is not None:
+            bad += _reducer(model, pipe, pipe.reducer)
+        if pipe.joint is not None:
+            bad += _joint(pipe, pipe.joint)
         if not 0.0 <= pipe.weight < inf:
             bad.append("the weight is negative")
         if bad:
-            name = f"{'RIGID' if pipe.rigid else 'PIPE'} {pipe_name(pipe)}"
+            name = f"{pipe.card} {pipe_name(pipe)}"
             problems += [Problem(pipe.place, f"{name}: {text}") for text in bad]
+
+
+def _reducer(model: Model, pipe: Pipe, reducer: Reducer) -> list[str]:
+    if reducer.section not in model.sections:
+        return [f"section {reducer.section!r} is not defined"]
+    ends = [
+        model.sections[name] for name in (pipe.section, reducer.section) if name in model.sections
+    ]
+    bad = []
+    if max(s.od for s in ends) > MOST_TAPER * min(s.od for s in ends):
+        bad.append(f"the diameters differ by more than {MOST_TAPER:g} to 1; use two reducers")
+    axis = reducer.axis
+    if axis is not None and not 0.0 < size(axis) < inf:
+        bad.append("AXIS has no direction")
+    elif (
+        axis is not None
+        and pipe.delta is not None
+        and not dot(axis, pipe.delta) > STEEPEST * size(axis) * size(pipe.delta)
+    ):
+        bad.append("AXIS is more than 60 degrees from the run of the reducer")
+    return bad
+
+
+def _joint(pipe: Pipe, joint: Joint) -> list[str]:
+    bad = []
+    rates = (joint.axial, joint.lateral, joint.bending, joint.torsion, joint.area)
+    if not all(k is None or 0.0 <= k < inf for k in rates):
+        bad.append("a rate is negative")
+    if joint.axis is not None and not 0.0 < size(joint.axis) < inf:
+        bad.append("AXIS has no direction")
+    return bad
 
 
 def _springs_and_masses(model: Model, problems: list[Problem]) -> None:

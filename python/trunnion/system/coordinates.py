@@ -151,7 +151,7 @@ def _check_found(model: Model, legs: Mapping[str, Legs], net: Net, problems: lis
             continue
         lost = [label for label in (pipe.start, pipe.end) if label not in position]
         if lost:
-            name = f"{'RIGID' if pipe.rigid else 'PIPE'} {pipe_name(pipe)}"
+            name = f"{pipe.card} {pipe_name(pipe)}"
             text = f"{name}: nothing gives the coordinates of {' and '.join(lost)}"
             problems.append(Problem(pipe.place, f"{text}; write a NODE card or join it"))
     for spring in model.springs:

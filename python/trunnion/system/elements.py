@@ -4,14 +4,15 @@ from math import cos, pi, sin
 
 import numpy as np
 
-from trunnion.arrays import F8, I4, SPRING
+from trunnion.arrays import F8, I4, SPRING, TAPER
 from trunnion.frozen import frozen
-from trunnion.model import Material, Model, Section
+from trunnion.model import Joint, Material, Model, Section
 from trunnion.system.bends import Corner, flexibility, stiffening_pressure
 from trunnion.system.geometry import Geometry
 from trunnion.system.numbering import Numbering
-from trunnion.system.vectors import AXES, Vec, add, cross, scale, unit, upright
+from trunnion.system.vectors import AXES, Vec, add, cross, dot, scale, size, sub, unit, upright
 
+CONCENTRIC = 1e-9  # offset of a reducer below this part of its length is round-off
 RIGID_WALL = 10.0  # wall of a rigid in walls of its pipe, at the same inside diameter
 _VERTICAL = 1e-6  # as in vectors.upright
 
@@ -32,6 +33,7 @@ class Elements:
     spring: F8
     od: F8
     wall: F8
+    taper: F8
 
     def tangents(self) -> F8:
         """Return unit tangents (n_elem, 2, 3) along the element at its ends."""
@@ -61,11 +63,18 @@ def build_elements(
         radius[e], angle[e] = c.radius, (last - first) * c.angle
         length[e] = radius[e] * angle[e]
         flex[e] = _flex(model, c)
-    springs = np.flatnonzero(kind == SPRING).tolist()
+    springs = np.flatnonzero((kind == SPRING) & (source < 0)).tolist()
     for e, record in zip(springs, model.springs, strict=True):
         axes[e] = AXES if record.axis is None else upright(unit(record.axis), up)
         spring[e] = record.k
         length[e] = 0.0
+    for e in np.flatnonzero((kind == SPRING) & (source >= 0)).tolist():
+        joint = model.pipes[source[e]].joint
+        assert joint is not None
+        if joint.axis is not None or not length[e] > 0.0:
+            axes[e] = upright(unit(joint.axis or AXES[0]), up)
+        spring[e] = joint_rates(joint, float(length[e]), model)
+    taper = _tapers(model, np.flatnonzero(kind == TAPER).tolist(), source, run, axes, length)
     values = _properties(model)[source]
     return Elements(
         ends=ends,
@@ -80,7 +89,50 @@ def build_elements(
         spring=spring,
         od=values[:, 4].copy(),
         wall=values[:, 5].copy(),
+        taper=taper,
     )
+
+
+def joint_rates(joint: Joint, length: float, model: Model) -> tuple[float, ...]:
+    """Stiffnesses of an expansion joint at its middle, along and across its axis [N/m, N m/rad].
+
+    The bellows is a uniform beam: V = lateral rate times offset with its ends kept parallel, 12
+    EI/L3, and M = bending rate times relative rotation, EI/L.  About the middle of a uniform beam
+    the two do not couple, so one follows from the other: bending = lateral L2/12.
+    """
+    lateral, bending = joint.lateral, joint.bending
+    if lateral is None and bending is not None and length > 0.0:
+        lateral = 12.0 * bending / length**2
+    elif bending is None and lateral is not None and length > 0.0:
+        bending = lateral * length**2 / 12.0
+    k, kr = model.settings.k, model.settings.kr
+    lateral = k if lateral is None else lateral
+    bending = kr if bending is None else bending
+    torsion = kr if joint.torsion is None else joint.torsion
+    return joint.axial, lateral, lateral, torsion, bending, bending
+
+
+def _tapers(model: Model, at: list[int], source: I4, run: F8, axes: F8, length: F8) -> F8:
+    """Second ends of reducers; of eccentric ones the axes and the length along the pipes' axis."""
+    if not at:
+        return np.zeros((0, 3))
+    taper = np.zeros((len(length), 3))
+    for e in at:
+        reducer = model.pipes[source[e]].reducer
+        assert reducer is not None
+        section = model.sections[reducer.section]
+        taper[e, :2] = section.od, section.wall
+        if reducer.axis is None:
+            continue
+        ex, d = unit(reducer.axis), tuple(run[e].tolist())
+        along = dot(ex, d)
+        aside = sub(d, scale(along, ex))
+        offset = size(aside)
+        if offset > CONCENTRIC * along:
+            ey = unit(sub(aside, scale(dot(aside, ex), ex)))
+            axes[e] = ex, ey, cross(ex, ey)
+            taper[e, 2], length[e] = offset, along
+    return taper
 
 
 def straight_axes(run: F8, length: F8, up: Vec) -> F8:
@@ -134,10 +186,13 @@ def _properties(model: Model) -> F8:
     shear = model.settings.shear
     keys = [(pipe.section, pipe.material, pipe.rigid) for pipe in model.pipes]
     known: dict[tuple[str, str, bool], tuple[float, ...]] = {}
+    joints = {i for i, pipe in enumerate(model.pipes) if pipe.joint}
     for key in set(keys):
         section, material = model.sections[key[0]], model.materials[key[1]]
         known[key] = section_rigidity(section, material, rigid=key[2], shear=shear)
-    return np.array([*map(known.__getitem__, keys), (0.0,) * 6])
+    rows = np.array([*map(known.__getitem__, keys), (0.0,) * 6])
+    rows[list(joints)] = 0.0  # an expansion joint is a spring
+    return rows
 
 
 def section_rigidity(

@@ -90,7 +90,7 @@ def _check_loops(model: Model, net: Net, problems: list[Problem]) -> None:
     for pipe in model.pipes:
         start, end = position[pipe.start], position[pipe.end]
         if pipe.delta is None:
-            if size(sub(end, start)) <= LOOP_ABSOLUTE:
+            if size(sub(end, start)) <= LOOP_ABSOLUTE and pipe.joint is None:
                 text = f"PIPE {pipe_name(pipe)}: both ends have the same coordinates"
                 problems.append(Problem(pipe.place, text))
             continue

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from trunnion.arrays import ARC, SPRING, STRAIGHT, Part
+from trunnion.arrays import ARC, SPRING, STRAIGHT, TAPER, Part
 from trunnion.model import Model
 from trunnion.system.bends import VANISHED, Corner
 from trunnion.system.checks import standing
@@ -98,10 +98,11 @@ def number(model: Model, geometry: Geometry) -> Numbering:
             a, b = pipe.start, pipe.end
             if a in corners or b in corners:
                 a, b = _point(a, i, corners), _point(b, i, corners)
-            kind = "rigid" if pipe.rigid else "pipe"
+            kind = pipe.card.lower()
             part = Part(a, b, kind, pipe.section, pipe.material, pipe.place.line)
             start = index[a] if a in index else node(a)
-            add(start, index[b] if b in index else node(b), STRAIGHT, i, part)
+            law = SPRING if pipe.joint else TAPER if pipe.reducer else STRAIGHT
+            add(start, index[b] if b in index else node(b), law, i, part)
         if i in bends_of:
             for label in bends_of[i]:
                 _bend(label, corners[label], model, label + "M" in used, numbering)
