@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import flint
 from flint import arb, arb_mat
-from scenes import INF, NU, G, Scene
+from plainscenes import INF, NU, G, Scene
 
 OPEN, MINUS, PLUS, BOTH = "open", "minus", "plus", "both"
 STICK, SLIP = "stick", "slip"
@@ -125,6 +125,7 @@ class Judge:
         self.scene, self.n = scene, 6 * len(scene.xyz)
         self.elements = [Element(scene, i) for i in range(len(scene.pipes))]
         self.normal = [unit(vector(s.way)) for s in scene.supports]
+        self.datum: dict[int, list[arb]] = {}  # of friction, where a case committed one
         self.k, self.load = self._pipe()
         self.reach = max((float(e.length.mid()) for e in self.elements), default=1.0)
 
@@ -184,6 +185,7 @@ class Judge:
         w = self.travel(n, u)
         across = dot(normal, w)
         w = [a - across * b for a, b in zip(w, normal, strict=True)]
+        w = [a - b for a, b in zip(w, self.datum.get(n, [arb(0)] * 3), strict=True)]
         plane = [
             [arb(1 if i == j else 0) - a * b for j, b in enumerate(normal)]
             for i, a in enumerate(normal)
@@ -276,6 +278,7 @@ class Judge:
             w = self.travel(n, u)
             across = dot(self.normal[n], w)
             w = [a - across * b for a, b in zip(w, self.normal[n], strict=True)]
+            w = [a - b for a, b in zip(w, self.datum.get(n, [arb(0)] * 3), strict=True)]
             trial = s.kf * float(dot(w, w).sqrt().mid())
             tie = force * max(1.0, s.mu) + s.kf * length
             if mode == STICK and trial > s.mu * r + tie:
@@ -323,3 +326,11 @@ def reported(scene: Scene, result) -> tuple[list[arb], list[tuple[str, str]]]:
             mode = modes[mode_of.get(card, 0)]
             states[int(name[1:])] = (sides[int(state.side[c])], mode)
     return u, states
+
+
+def committed(result) -> dict[int, list[arb]]:
+    """Datum of friction from which the last step of a case started, by support."""
+    system, state = result.system, result.state
+    names = (system.cards[card].name for card in system.sliders.card.tolist())
+    rows = zip(names, state.datum.tolist(), strict=True)
+    return {int(name[1:]): vector(row) for name, row in rows if name[0] == "S" and any(row)}

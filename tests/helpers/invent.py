@@ -3,7 +3,7 @@
 from collections.abc import Callable
 
 import numpy as np
-from scenes import Pipe, Scene, Support, Triple
+from plainscenes import Pipe, Scene, Support, Triple
 
 Rng = np.random.Generator
 AXES = np.vstack((np.eye(3), -np.eye(3)))

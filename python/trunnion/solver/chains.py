@@ -76,7 +76,7 @@ def find_chains(system: System) -> Chains:
 
 
 def _uneven(system: System, ends: I4, joins: B1) -> B1:
-    """Nodes where a soft element meets a stiff one: their sum would keep few digits of the stiff."""
+    """Nodes where a soft element meets a stiff one: the sum would keep few digits of that."""
     which = np.flatnonzero(joins)
     stiff = np.log(system.rigidity[which, 2]) - 3.0 * np.log(system.length[which])
     most, least = np.full(len(system.labels), -np.inf), np.full(len(system.labels), np.inf)
