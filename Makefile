@@ -3,7 +3,8 @@
 #   make test     every test                        (make test ARGS="-k friction -x")
 #   make lint     ruff, mypy, fortitude
 #   make stress   thousands of extreme scenes    (make stress N=20000; goes on where it stopped)
-#   make bench    the rack lines of benchmarks/     (make bench NODES="50 200" CASES=fric1)
+#   make bench    time, error and memory, peers, sweeps: tables and pictures in build/bench
+#                 (bench-quick, bench-docs, bench-million, bench-peers; OUT=folder ONLY="racks whole")
 BIN := .venv/bin
 READY := .venv/.ready
 
@@ -14,14 +15,13 @@ export OMP_NUM_THREADS := 1
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
 DEMO := b313_s302 hot_header
-NODES := 50 200 1000
-CASES := lin gap fric1 fric10
-RACKS := tests/data
+OUT := build/bench
+ONLY :=
 ARGS :=
-
 N := 20000
 
-.PHONY: demo test stress lint bench debug-test build clean
+.PHONY: demo test stress lint debug-test build clean
+.PHONY: bench bench-quick bench-docs bench-million bench-peers
 
 demo: build
 	@mkdir -p demo
@@ -42,12 +42,22 @@ lint: $(READY)
 	    $(BIN)/$$check || failed=1; \
 	done; exit $$failed
 
-bench: build
-	@mkdir -p build/bench
-	@set -e; for n in $(NODES); do for case in $(CASES); do \
-	    $(BIN)/python benchmarks/rack.py $(RACKS)/rack_$$n.json.gz $$case \
-	        -o build/bench/rack_$${n}_$$case.json; \
-	done; done
+# OUT=docs/benchmarks refreshes docs/benchmarks.md and the README, too.
+BENCH = $(BIN)/python benchmarks/bench.py $(if $(filter docs/benchmarks,$(OUT)),--docs,-o $(OUT))
+bench-docs: OUT := docs/benchmarks
+
+bench bench-docs: build
+	@$(BENCH) $(if $(ONLY),--only $(ONLY))
+
+bench-quick: build
+	@$(BENCH) --scope quick $(if $(ONLY),--only $(ONLY))
+
+bench-million: build
+	@$(BENCH) --only million
+
+bench-peers: build
+	@$(BIN)/pip install --quiet --disable-pip-version-check --no-build-isolation \
+	    --config-settings=build-dir=build/editable --editable '.[peers]'
 
 # The debug build keeps its own directory; only what the Fortran tests need is built in it.
 debug-test: $(READY)

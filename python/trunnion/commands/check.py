@@ -5,23 +5,25 @@ from typing import TYPE_CHECKING
 
 import click
 
-from trunnion.commands.shared import DECK, PERMISSIVE, SOLVED, read_model, say
+from trunnion.commands.shared import DECK, PERMISSIVE, SOLVED, beside, read_model, say
 
 if TYPE_CHECKING:
     from trunnion.arrays import System
+    from trunnion.formats.options import Options
 
 
 @click.command()
 @DECK
 @PERMISSIVE
-def check(deck: Path, permissive: bool) -> int:
+@beside
+def check(deck: Path, permissive: bool, options: "Options | None") -> int:
     """Read DECK, look for mechanisms and missing loads; solve and write nothing."""
     from trunnion.cases.default_cases import may_be_free, with_cases
     from trunnion.loads import case_loads, load_sets
     from trunnion.model import Case
     from trunnion.system import build_system
 
-    read = read_model(deck, permissive=permissive)
+    read = read_model(deck, permissive=permissive, options=options)
     model = with_cases(read)
     system = build_system(model)
     sets = load_sets(model, system)

@@ -1,23 +1,29 @@
 """trunnion convert: a file of another program becomes a deck."""
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
-from trunnion.commands.shared import PERMISSIVE, SOLVED, InputError, refuse_unwritable, say
+from trunnion.commands.shared import PERMISSIVE, SOLVED, InputError, beside, refuse_unwritable, say
+
+if TYPE_CHECKING:
+    from trunnion.formats.options import Options
 
 
 @click.command()
 @click.argument("source", type=click.Path(path_type=Path))
 @click.argument("deck", type=click.Path(path_type=Path))
 @PERMISSIVE
-def convert(source: Path, deck: Path, permissive: bool) -> int:
+@beside
+def convert(source: Path, deck: Path, permissive: bool, options: "Options | None") -> int:
     """Read SOURCE, a file of another program, and write DECK with comments on what came whence.
 
     What a model cannot represent is an error that names it; --permissive leaves it out, and
     lists it at the top of the deck.
     """
     from trunnion.formats import is_foreign, read_any
+    from trunnion.formats.options import NONE
     from trunnion.report.atomic import write_files
     from trunnion.report.origin import origin_lines
 
@@ -28,7 +34,7 @@ def convert(source: Path, deck: Path, permissive: bool) -> int:
     if deck.is_dir():
         raise InputError(f"{deck} is a folder")
     refuse_unwritable(deck.parent)
-    imported = read_any(source, permissive=permissive)
+    imported = read_any(source, permissive=permissive, options=options or NONE)
     write_files({deck: imported.deck().encode()})
     say("\n".join(origin_lines(imported.origin)))
     say(f"wrote {deck}")

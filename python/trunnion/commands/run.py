@@ -2,6 +2,7 @@
 
 from pathlib import Path
 from time import perf_counter
+from typing import TYPE_CHECKING
 
 import click
 
@@ -12,12 +13,16 @@ from trunnion.commands.shared import (
     PERMISSIVE,
     SOLVED,
     InputError,
+    beside,
     further_options,
     read_model,
     refuse_unwritable,
     say,
     solve_model,
 )
+
+if TYPE_CHECKING:
+    from trunnion.formats.options import Options
 
 
 @click.command()
@@ -33,8 +38,15 @@ from trunnion.commands.shared import (
 )
 @PERMISSIVE
 @click.option("--timings", is_flag=True, help="Print how long each part took.")
+@beside
 def run(
-    deck: Path, folder: Path, spread: int, permissive: bool, timings: bool, **further: bool
+    deck: Path,
+    folder: Path,
+    spread: int,
+    permissive: bool,
+    options: "Options | None",
+    timings: bool,
+    **further: bool,
 ) -> int:
     """Solve DECK; write <stem>.out and <stem>.json."""
     from trunnion.report.screen import screen
@@ -43,7 +55,7 @@ def run(
     _check_names(deck, also)
     refuse_unwritable(folder)
     start = perf_counter()
-    model = read_model(deck, permissive=permissive)
+    model = read_model(deck, permissive=permissive, options=options)
     read = perf_counter()
     results = solve_model(model, spread)
     solved = perf_counter()

@@ -3,13 +3,15 @@
 import os
 import sys
 from collections.abc import Callable
+from functools import wraps
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
 if TYPE_CHECKING:
     from trunnion.arrays import Results
+    from trunnion.formats.options import Options
     from trunnion.model import Model
 
 SOLVED, FAILED, BAD_INPUT, INTERNAL, INTERRUPTED, TERMINATED = 0, 1, 2, 3, 130, 143
@@ -21,7 +23,7 @@ FOLDER = click.option(
 PERMISSIVE = click.option(
     "--permissive", is_flag=True, help="Leave out what a model cannot represent, and list it."
 )
-FOREIGN: tuple[str, ...] = (".cii",)  # suffixes of files that are no decks: formats.FORMATS
+FOREIGN = (".cii", ".pcf", ".xml")  # suffixes of files that are no decks: formats.FORMATS
 JOBS = click.option(
     "-j", "jobs", type=click.IntRange(1), help="Processes at a time; one a core if not given."
 )
@@ -55,12 +57,47 @@ def say(text: str) -> None:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
-def read_model(deck: Path, *, permissive: bool = False) -> "Model":
+def beside(command: Callable[..., int]) -> Callable[..., int]:
+    """Give a command the options --table, --tolerance and --anchor as one argument `options`."""
+
+    @click.option("--table", type=click.Path(path_type=Path), help="Side table of a PCF.")
+    @click.option("--tolerance", metavar="LENGTH", help="Join ends of a PCF so near: 2mm.")
+    @click.option(
+        "--anchor",
+        "anchors",
+        multiple=True,
+        metavar="NODE",
+        help="Anchor a node of a PCF: a label, E,N,Up in its units, or open-ends.",
+    )
+    @wraps(command)
+    def with_options(
+        *, table: Path | None, tolerance: str | None, anchors: tuple[str, ...], **rest: Any
+    ) -> int:
+        options = None
+        if table is not None or tolerance is not None or anchors:
+            from trunnion.formats.options import Options, length
+
+            try:
+                near = None if tolerance is None else length(tolerance)
+            except ValueError as error:
+                raise InputError(f"--tolerance: {error}") from None
+            options = Options(table, near, anchors)
+        return command(options=options, **rest)
+
+    return with_options
+
+
+def read_model(
+    deck: Path, *, permissive: bool = False, options: "Options | None" = None
+) -> "Model":
     """Read the input file of a command: a deck, or a file of another program by its suffix."""
     if deck.suffix.lower() in FOREIGN:
         from trunnion.formats import read_any
+        from trunnion.formats.options import NONE
 
-        return read_any(deck, permissive=permissive).model
+        return read_any(deck, permissive=permissive, options=options or NONE).model
+    if options is not None:
+        raise InputError("--table, --tolerance and --anchor are for files of other programs")
     if permissive:
         raise InputError(f"--permissive is for files of other programs ({' '.join(FOREIGN)})")
     from trunnion.deck.reader import read

@@ -12,11 +12,12 @@ from importlib import import_module
 from trunnion.errors import DeckError, Problem
 from trunnion.formats.findings import Findings
 from trunnion.formats.imported import Imported, Note
+from trunnion.formats.options import NONE, Options
 from trunnion.formats.source import Source, read_source
 from trunnion.frozen import frozen
 from trunnion.model import Place
 
-__all__ = ["FORMATS", "Findings", "Imported", "Note", "Source", "is_foreign", "read_any"]
+__all__ = ["FORMATS", "Findings", "Imported", "Note", "Options", "Source", "is_foreign", "read_any"]
 
 
 @frozen
@@ -26,11 +27,23 @@ class Format:
     name: str
     module: str
     opening: str  # pattern of the first line that is not blank
+    options: tuple[str, ...] = ()  # of formats.options that it has a use for
 
 
 #: by suffix; commands.shared.FOREIGN lists the same suffixes
 FORMATS: dict[str, Format] = {
     ".cii": Format("CAESAR II neutral file", "trunnion.formats.caesar", r"#\$"),
+    ".xml": Format(
+        "CAESAR II input XML",
+        "trunnion.formats.caesar_xml",
+        r"(?i)<(\?xml|!--|!DOCTYPE|CAESARII)",
+    ),
+    ".pcf": Format(
+        "PCF (Isogen piping component file)",
+        "trunnion.formats.pcf",
+        r"(?i)<?(ISOGEN-FILES|UNITS-|PIPELINE-REFERENCE|PIPE|MESSAGE-)",
+        ("--table", "--tolerance", "--anchor"),
+    ),
 }
 
 
@@ -39,12 +52,15 @@ def is_foreign(path: str | os.PathLike[str]) -> bool:
     return os.path.splitext(path)[1].lower() in FORMATS
 
 
-def read_any(path: str | os.PathLike[str], *, permissive: bool = False) -> Imported:
+def read_any(
+    path: str | os.PathLike[str], *, permissive: bool = False, options: Options = NONE
+) -> Imported:
     """Read a file of another program.
 
     Parameters
     ----------
     permissive : leave out what a model cannot represent, and list it; else that is an error.
+    options : what the user says beside the file: a side table, a tolerance, anchors.
 
     Raises
     ------
@@ -52,8 +68,12 @@ def read_any(path: str | os.PathLike[str], *, permissive: bool = False) -> Impor
     """
     source = read_source(path)
     form = FORMATS[_suffix_of(source)]
+    useless = [name for name in options.given() if name not in form.options]
+    if useless:
+        text = f"{' and '.join(useless)} mean nothing for a {form.name}"
+        raise DeckError([Problem(Place(source.file, 1), text)])
     read: Callable[[Source, Findings], Imported] = import_module(form.module).read
-    return read(source, Findings(source, permissive=permissive))
+    return read(source, Findings(source, permissive=permissive, options=options))
 
 
 def _suffix_of(source: Source) -> str:

@@ -4,6 +4,7 @@ from pathlib import Path
 
 from trunnion.errors import DeckError, Problem
 from trunnion.formats.imported import Imported, Note
+from trunnion.formats.options import NONE, Options
 from trunnion.formats.source import Source
 from trunnion.model import Model, Place
 from trunnion.origin import Assumption, LeftOut, Origin
@@ -17,10 +18,14 @@ class Findings:
     Parameters
     ----------
     permissive : what cannot be represented is listed and left out, else it is a problem.
+    options : what the user says beside the file.
     """
 
-    def __init__(self, source: Source, *, permissive: bool = False) -> None:
+    def __init__(
+        self, source: Source, *, permissive: bool = False, options: Options = NONE
+    ) -> None:
         self.source = source
+        self.options = options
         self.permissive = permissive
         self.problems: list[Problem] = []
         self.left_out: list[LeftOut] = []

@@ -4,8 +4,12 @@ The tangent K - C has an unsymmetric part C of low rank (mu dN/du of the sliding
 never factored: GMRES on the symmetric factor of K takes a few solves.
 """
 
+from collections.abc import Callable
+from math import hypot, sqrt
+
 import numpy as np
 
+from trunnion import kernels
 from trunnion.arrays import F8, SLIP
 from trunnion.solver.quantities import Response, Sliding
 from trunnion.solver.structure import Structure
@@ -25,39 +29,50 @@ def coupled_step(structure: Structure, response: Response, sliding: Sliding, r: 
     return structure.solve(gmres(product, r, SHARP, KRYLOV))
 
 
-def gmres(product, b: F8, sharp: float, limit: int) -> F8:  # type: ignore[no-untyped-def]
+def gmres(product: Callable[[F8], F8], b: F8, sharp: float, limit: int) -> F8:
     """Solve A x = b, A given by its product; Saad and Schultz (1986), modified Gram-Schmidt."""
-    size = float(np.linalg.norm(b))
+    size = sqrt(kernels.inner(b, b))
     if size == 0.0:
         return np.zeros_like(b)
-    basis = [b / size]
-    h = np.zeros((limit + 1, limit))
-    g = np.zeros(limit + 1)
-    g[0] = size
-    turn: list[tuple[float, float]] = []
+    basis = np.empty((limit + 1, b.size))
+    basis[0] = b.ravel() / size
+    h, g = np.zeros((limit + 1, limit)), [size]
+    turns: list[tuple[float, float]] = []
     n = 0
     for j in range(limit):
-        w = product(basis[j])
-        for i, v in enumerate(basis):
-            h[i, j] = float(np.vdot(v, w))
-            w -= h[i, j] * v
-        h[j + 1, j] = float(np.linalg.norm(w))
-        below = h[j + 1, j]
-        for i, (c, s) in enumerate(turn):
-            h[i, j], h[i + 1, j] = c * h[i, j] + s * h[i + 1, j], c * h[i + 1, j] - s * h[i, j]
-        length = float(np.hypot(h[j, j], h[j + 1, j]))
+        column = kernels.orthogonalise(
+            j + 1, basis, product(basis[j].reshape(b.shape)).ravel()
+        ).tolist()
+        below = column[j + 1]
+        for i, (c, s) in enumerate(turns):
+            column[i], column[i + 1] = (
+                c * column[i] + s * column[i + 1],
+                c * column[i + 1] - s * column[i],
+            )
+        length = hypot(column[j], column[j + 1])
         n = j + 1
         if length == 0.0:
+            h[: j + 1, j] = column[: j + 1]
             break
-        c, s = h[j, j] / length, h[j + 1, j] / length
-        turn.append((c, s))
-        h[j, j], h[j + 1, j] = length, 0.0
-        g[j], g[j + 1] = c * g[j], -s * g[j]
-        if abs(g[j + 1]) <= sharp * size or below <= 1e-15 * size:
+        c, s = column[j] / length, column[j + 1] / length
+        turns.append((c, s))
+        column[j] = length
+        h[: j + 1, j] = column[: j + 1]
+        g[j], more = c * g[j], -s * g[j]
+        g.append(more)
+        if abs(more) <= sharp * size or below <= 1e-15 * size:
             break
-        basis.append(w / below)
-    y = np.linalg.lstsq(np.triu(h[:n, :n]), g[:n], rcond=None)[0]
-    x = np.zeros_like(b)
+    y = _back(h[:n, :n], g[:n])
+    x = np.zeros(b.size)
     for value, v in zip(y, basis, strict=False):
         x += value * v
-    return x
+    return x.reshape(b.shape)
+
+
+def _back(h: F8, g: list[float]) -> list[float]:
+    """Solve a small upper triangle; what has no pivot is left out."""
+    y = list(g)
+    for i in reversed(range(len(g))):
+        y[i] -= sum(float(h[i, j]) * y[j] for j in range(i + 1, len(g)))
+        y[i] = y[i] / float(h[i, i]) if h[i, i] != 0.0 else 0.0
+    return y

@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from trunnion import kernels
 from trunnion.arrays import F8
 from trunnion.solver.capacities import STEPS, average, settle
 from trunnion.solver.coupled import coupled_step
@@ -165,7 +166,7 @@ def renew(
         new = sliding.mu * outcome.response.normal
         last, error = error, new - sliding.capacity
         change = float(np.abs(error).max(initial=0.0))
-        grows = change > best and float(np.vdot(error, last)) > 0.0  # as a self-locking one does
+        grows = change > best and kernels.inner(error, last) > 0.0  # as a self-locking one does
         stalled = 0 if change < PROGRESS * best else stalled + (not grows)
         best = min(best, change)
         if stalled >= STALLED or i == RENEWALS - 1:

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from trunnion import kernels
 from trunnion.arrays import F8
 from trunnion.solver.history import History
 from trunnion.solver.quantities import Forcing, Point, Response, Sliding
@@ -68,8 +69,8 @@ def relax(
             return Outcome(response, r, residual, False, runaway=True)
         step = 1.0
         if i >= full_steps or shift:
-            push = float(np.vdot(r, p))
-            stiff = push - shift * float(np.vdot(p, p))
+            push = kernels.inner(r, p)
+            stiff = push - shift * kernels.inner(p, p)
             step = structure.search(point, sliding, forcing, p, (push, stiff))
             if not step * np.abs(p).max() < RUNAWAY * structure.size:
                 return Outcome(response, r, residual, False, runaway=True)

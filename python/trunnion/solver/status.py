@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from trunnion import kernels
 from trunnion.arrays import F8, I4
 from trunnion.solver.convergence import judge
 from trunnion.solver.friction import STICKY, Solved
@@ -50,11 +51,11 @@ class Creep:
         self.quiet += 1
         if last is None:
             return None
-        product, square = float(np.vdot(step, last)), float(np.vdot(last, last))
+        product, square = kernels.inner(step, last), kernels.inner(last, last)
         if square == 0.0 or product <= 0.0:
             self.ratio = None
             return None
-        cosine = product / np.sqrt(square * float(np.vdot(step, step)))
+        cosine = product / np.sqrt(square * kernels.inner(step, step))
         ratio, before = product / square, self.ratio
         self.ratio = ratio
         if before is None or not 0.0 < ratio < 1.0 or self.quiet < QUIET:
@@ -135,7 +136,7 @@ def _pass(
     tangent_factor(structure, response)
     p = structure.solve(r)
     if careful:
-        push = float(np.vdot(r, p))
+        push = kernels.inner(r, p)
         p *= structure.search(point, trial, forcing, p, (push, push))
     point.move(p)
     return p

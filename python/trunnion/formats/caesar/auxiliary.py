@@ -18,7 +18,7 @@ from trunnion.formats.caesar.job import (
 )
 from trunnion.formats.caesar.sections import Records
 from trunnion.formats.caesar.text import Columns
-from trunnion.formats.caesar.units import INCH, LBF, FileUnits, clean
+from trunnion.formats.caesar.units import INCH, LBF, FileUnits, scaled
 from trunnion.formats.findings import Findings
 
 T = TypeVar("T")
@@ -67,11 +67,11 @@ class Auxiliary:
             self.findings.fault(line, f"a bend of radius {v[0]:g} cannot be", (2, 15))
         return BendData(
             line,
-            clean(v[0] * self.units.length),
+            scaled(v[0], self.units.length),
             int(v[1]) if v[1] in (0.0, 1.0, 2.0) else 0,
             tuple((angle, node) for angle, node in pairs if node),
             int(min(max(v[8], 0.0), 1e6)),
-            clean(v[9] * self.units.wall),
+            scaled(v[9], self.units.wall),
             v[11],
         )
 
@@ -79,7 +79,7 @@ class Auxiliary:
         """Read a rigid: weight, type."""
         weight, kind = self.columns.reals(line, 2)
         return RigidData(
-            line, clean(weight * self.units.force), int(kind) if 0 <= kind < 100 else 0
+            line, scaled(weight, self.units.force), int(kind) if 0 <= kind < 100 else 0
         )
 
     def joint(self, line: int) -> JointData:
@@ -88,11 +88,11 @@ class Auxiliary:
         u = self.units
         return JointData(
             line,
-            clean(axial * u.kt),
-            clean(transverse * u.kt),
-            clean(bending * u.kr),
-            clean(torsional * u.kr),
-            clean(diameter * u.diameter),
+            scaled(axial, u.kt),
+            scaled(transverse, u.kt),
+            scaled(bending, u.kr),
+            scaled(torsional, u.kr),
+            scaled(diameter, u.diameter),
         )
 
     def restraints(self, line: int) -> tuple[Restraint, ...]:
@@ -116,7 +116,7 @@ class Auxiliary:
             self.findings.fault(line, f"{code:g} is no code of a restraint", (15, 28))
             code = 0.0
         turning = int(code) in ROTATIONAL
-        k = clean(stiffness * (self.units.kr if turning else self.units.kt))
+        k = scaled(stiffness, self.units.kr if turning else self.units.kt)
         if stiffness == 0.0:
             text = (
                 "restraints with a stiffness of 0 are rigid: the program itself writes 1e12 lb/in"
@@ -131,7 +131,7 @@ class Auxiliary:
             self.node(line, node),
             int(code),
             None if k == 0.0 or k >= RIGID else k,
-            radians(gap) if turning else clean(gap * self.units.length),
+            radians(gap) if turning else scaled(gap, self.units.length),
             mu,
             self.node(line, cnode, 5),
             (cosines[0], cosines[1], cosines[2]),
@@ -157,7 +157,7 @@ class Auxiliary:
                 tuple(
                     None
                     if free and abs(x) >= FREE - 0.01
-                    else clean(x * (first if i < 3 else second))
+                    else scaled(x, first if i < 3 else second)
                     for i, x in enumerate(row)
                 )
                 for row in rows
@@ -172,7 +172,7 @@ class Auxiliary:
         for k in range(0, 36, 4):
             in_g = v[k + 3] == 1.0
             factor = 1.0 if in_g else self.units.load
-            vector: Vec = (clean(v[k] * factor), clean(v[k + 1] * factor), clean(v[k + 2] * factor))
+            vector: Vec = (scaled(v[k], factor), scaled(v[k + 1], factor), scaled(v[k + 2], factor))
             loads.append((vector, in_g))
         return Uniform(line, tuple(loads))
 
@@ -183,14 +183,14 @@ class Auxiliary:
 
     def offsets(self, line: int) -> Offsets:
         """Read the offsets of both ends."""
-        v = [clean(x * self.units.length) for x in self.columns.reals(line, 6)]
+        v = [scaled(x, self.units.length) for x in self.columns.reals(line, 6)]
         return Offsets(line, (v[0], v[1], v[2]), (v[3], v[4], v[5]))
 
     def reducer(self, line: int) -> ReducerData:
         """Read the TO end of a reducer: OD, wall, alpha."""
         od, wall, alpha, *_ = self.columns.reals(line, 5)
         return ReducerData(
-            line, clean(od * self.units.diameter), clean(wall * self.units.wall), alpha
+            line, scaled(od, self.units.diameter), scaled(wall, self.units.wall), alpha
         )
 
     def node_names(self, line: int) -> tuple[str, str]:

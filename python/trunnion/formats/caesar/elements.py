@@ -7,7 +7,7 @@ from trunnion.formats.caesar.auxiliary import Auxiliary
 from trunnion.formats.caesar.job import Element
 from trunnion.formats.caesar.sections import CHECKS_ONLY, Records
 from trunnion.formats.caesar.text import Columns
-from trunnion.formats.caesar.units import FileUnits, clean
+from trunnion.formats.caesar.units import FileUnits, clean, scaled
 
 T = TypeVar("T")
 POINTERS = (
@@ -52,25 +52,25 @@ class Elements:
             line=line,
             start=start,
             end=end,
-            delta=(clean(v[3] * u.compound), clean(v[4] * u.compound), clean(v[5] * u.compound)),
-            od=clean(v[6] * u.diameter),
-            wall=clean(v[7] * u.wall),
+            delta=(scaled(v[3], u.compound), scaled(v[4], u.compound), scaled(v[5], u.compound)),
+            od=scaled(v[6], u.diameter),
+            wall=scaled(v[7], u.wall),
             material=material,
-            insulation=clean(v[8] * u.wall),
-            corrosion=clean(v[9] * u.wall),
+            insulation=scaled(v[8], u.wall),
+            corrosion=scaled(v[9], u.wall),
             t=tuple(None if abs(x) < STRAIN else clean(u.celsius(x)) for x in v[10:19]),
             strain=tuple(x if 0.0 < abs(x) < STRAIN else None for x in v[10:19]),
-            p=tuple(clean(x * u.pressure) or None for x in v[19:28]),
-            e=clean(v[28] * u.modulus),
+            p=tuple(scaled(x, u.pressure) or None for x in v[19:28]),
+            e=scaled(v[28], u.modulus),
             nu=v[29],
-            density=clean(v[30] * u.pipe_density),
-            insulation_density=clean(v[31] * u.insulation_density),
-            fluid_density=clean(v[32] * u.fluid_density),
-            cladding=clean(v[49] * u.wall),
-            cladding_density=clean(v[50] * u.insulation_density),
-            cover_weight=clean(v[51] * u.load),
-            lining=clean(v[52] * u.wall),
-            lining_density=clean(v[53] * u.insulation_density),
+            density=scaled(v[30], u.pipe_density),
+            insulation_density=scaled(v[31], u.insulation_density),
+            fluid_density=scaled(v[32], u.fluid_density),
+            cladding=scaled(v[49], u.wall),
+            cladding_density=scaled(v[50], u.insulation_density),
+            cover_weight=scaled(v[51], u.load),
+            lining=scaled(v[52], u.wall),
+            lining_density=scaled(v[53], u.insulation_density),
             name=self.columns.string(line + 9) if width == 15 else "",
             names=self._get("NODENAME", pointers, aux.node_names) or ("", ""),
             bend=self._get("BEND", pointers, aux.bend),

@@ -161,6 +161,9 @@ class HangerData:
     hot_load: float = 0.0
     constant: float = 0.0  # constant effort load [N]
     variation: float = 25.0  # [%]
+    rod: float = 0.0  # a rigid rod up to this travel [m]
+    most: float | None = None  # a constant support above this travel [m]
+    cold_design: bool = False
     number: int = 1
     cnode: int = 0
     table: int = 0

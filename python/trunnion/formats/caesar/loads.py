@@ -1,7 +1,8 @@
 """Displacements, forces, uniform loads and wind of the job."""
 
+from trunnion.formats.caesar.bodies import accelerations
 from trunnion.formats.caesar.geometry import Labels
-from trunnion.formats.caesar.job import Element, Job, Sets, Six, Uniform
+from trunnion.formats.caesar.job import Element, Job, Sets, Six
 from trunnion.formats.findings import Findings
 from trunnion.model import SETS, Acceleration, Displacement, Force, Model, Support
 
@@ -29,30 +30,15 @@ class Loads:
 
     def uniform(self) -> None:
         """Add uniform loads in g that hold for all elements as accelerations."""
-        held: Uniform | None = None
-        found: list[Uniform | None] = []
-        for e in self.job.elements:
-            held = e.uniform or held
-            found.append(held)
-        if held is None:
-            return
-        for n in range(9):
-            values = {None if u is None else u.loads[n] for u in found}
-            loads = {value for value in values if value is not None and any(value[0])}
-            if not loads:
-                continue
-            first = next(u for u in found if u is not None)
-            (vector, in_g), *more = loads
-            if in_g and not more and len(values) == 1:
-                place = self.findings.place(self.job.elements[0].line)
-                made = Acceleration(SETS[n], vector, place)
-                self.model.accelerations.append(made)
-                self.findings.note(made, f"uniform load {SETS[n]} in g (line {first.line})")
-                text = "uniform loads in g are occasional loads, linear about the operating case"
-                self.findings.assume(text, first.line)
-            else:
-                text = f"uniform load U{SETS[n]} by length, or on a part of the elements; left out"
-                self.findings.leave_out(first.line, "elements", text)
+        first = self.job.elements[0]
+        for n, vector in accelerations(self.job).items():
+            made = Acceleration(SETS[n], vector, self.findings.place(first.line))
+            self.model.accelerations.append(made)
+            assert first.uniform is not None
+            line = first.uniform.line
+            self.findings.note(made, f"uniform load {SETS[n]} in g (line {line})")
+            text = "uniform loads in g are occasional loads, linear about the operating case"
+            self.findings.assume(text, line)
 
     def wind(self) -> None:
         """Say that wind is not in the file."""

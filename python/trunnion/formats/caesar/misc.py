@@ -1,9 +1,10 @@
 """MISCEL_1 (materials, nozzles, hangers, options) and COORDS."""
 
+from trunnion.formats.caesar.auxiliary import FREE
 from trunnion.formats.caesar.job import HangerData, Nozzle, Vec
 from trunnion.formats.caesar.sections import Section, Skeleton
 from trunnion.formats.caesar.text import Columns
-from trunnion.formats.caesar.units import FileUnits, clean
+from trunnion.formats.caesar.units import FileUnits, clean, scaled
 from trunnion.frozen import frozen
 
 USUAL_AMBIENT = 21.11  # C, 70 F: of the program
@@ -61,6 +62,7 @@ def _hangers(
 ) -> tuple[HangerData, ...]:
     """Read the defaults, the nodes, the values of each hanger, and four lists of integers."""
     rows = -(-n // 6)
+    cold = columns.integers(at + 1, 5)[1] == 1
     nodes = _list(columns, at + 2, n)
     first = at + 2 + rows
     each = 4 if strings else 2
@@ -76,11 +78,14 @@ def _hangers(
             HangerData(
                 line,
                 nodes[i],
-                rate=clean(v[0] * units.kt),
-                cold_load=clean(v[4] * units.force),
-                hot_load=clean(v[5] * units.force),
-                constant=clean(v[10] * units.force) if strings else 0.0,
+                rate=scaled(v[0], units.kt),
+                cold_load=scaled(v[4], units.force),
+                hot_load=scaled(v[5], units.force),
+                constant=scaled(v[10], units.force) if strings else 0.0,
                 variation=v[1] or 25.0,
+                rod=max(0.0, scaled(v[2], units.length)),
+                most=scaled(v[7], units.length) if 0.0 < v[7] < FREE - 0.01 else None,
+                cold_design=cold,
                 number=number[i],
                 cnode=cnode[i],
                 table=table[i],
@@ -121,5 +126,5 @@ def read_coordinates(
     for line in range(section.header + 2, section.header + 2 + count):
         node, x, y, z = columns.reals(line, 4)
         f = units.length
-        found.append((line, _whole(node), (clean(x * f), clean(y * f), clean(z * f))))
+        found.append((line, _whole(node), (scaled(x, f), scaled(y, f), scaled(z, f))))
     return tuple(found)

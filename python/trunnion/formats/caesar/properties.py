@@ -78,12 +78,9 @@ class Properties:
         if e.nu and not 0.0 < e.nu < 0.5:
             self.findings.fault(e.line, f"element {e.start}-{e.end}: Poisson's ratio {e.nu:g}")
             return name
-        if e.material in (mt.CUT_SHORT, mt.CUT_LONG):
-            text = f"material {e.material}: cut {'short' if e.material == 18 else 'long'}"
-            self._leave_out(e, f"{text} (cold spring); taken as carbon steel as it stands")
-        elif e.material == mt.PLASTIC:
+        if e.material == mt.PLASTIC:
             self._leave_out(e, "material 20: fibre reinforced plastic; taken as isotropic")
-        elif family is None:
+        elif family is None and e.material not in (mt.CUT_SHORT, mt.CUT_LONG):
             self._leave_out(e, f"material {e.material} is not known; taken as carbon steel")
         family = family or mt.FAMILIES[1]
         made = mt.material_of(name, family, e.e, e.nu, e.density)

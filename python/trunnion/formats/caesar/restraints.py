@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from trunnion.formats.caesar.geometry import Labels, size
 from trunnion.formats.caesar.job import Element, HangerData, Job, Restraint, Vec
 from trunnion.formats.findings import Findings
-from trunnion.model import Direction, Model, Support
+from trunnion.model import Direction, HangerDesign, Model, Place, Support
 
 _AXES = "XYZ"
 # code -> word of the model; what is not here has no counterpart
@@ -165,13 +165,27 @@ class Restraints:
         line = self.job.elements[self.labels.at[h.node][0]].line if h.node in self.labels.at else 0
         place = self.findings.place(line or h.line)
         if not load:
-            text = "spring hanger to be designed; left out"
-            self.findings.leave_out(h.line, name, text)
+            self._designed(h, label, cnode, n, place)
             return
         rate = 0.0 if h.constant else n * h.rate
         made = Support(label, "hanger", (), cnode, self._name(h.tag), rate, load=load, place=place)
         self.model.supports.append(made)
         self.findings.note(made, f"hanger of line {h.line}" + f", {n} of them" * (n > 1))
+
+    def _designed(self, h: HangerData, label: str, cnode: str | None, n: int, place: Place) -> None:
+        """Add a hanger that the program selects."""
+        if h.rate or h.hot_load:
+            text = "hanger with a rate or an operating load, but no cold load; designed anew"
+            self.findings.leave_out(h.line, f"node {h.node}", text)
+        method = "COLD" if h.cold_design else "HOT"
+        variation = h.variation / 100.0
+        design = HangerDesign(variation, h.rod, h.most, min(n, 100), method)
+        name = self._name(h.tag)
+        made = Support(label, "hanger", (), cnode, name, 0.0, place=place, design=design)
+        self.model.supports.append(made)
+        self.findings.note(made, f"hanger of line {h.line}, to be designed; table {h.table}")
+        text = "springs of hangers are selected from Trunnion's generic table, of no maker"
+        self.findings.assume(text, h.line)
 
     def _name(self, tag: str) -> str | None:
         """Take a tag as the name of a support where it can be one and is the only one."""

@@ -86,7 +86,15 @@ def clean(x: float) -> float:
     return float(f"{x:.12g}")
 
 
-#: what the XML and other files without constants may start from: inch, lbf, psi, F
+def scaled(x: float, factor: float) -> float:
+    """Convert as a deck does (mm by division), so that a deck shows the file's own digits."""
+    inverse = 1.0 / factor
+    if factor < 1.0 and inverse == round(inverse):
+        return x / inverse
+    return clean(x * factor) if factor == round(factor) else x * factor
+
+
+#: inch, lbf, psi, F: the program's own units
 INTERNAL = (1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 0.0, *(1.0,) * 14)
 
 

@@ -1,0 +1,1 @@
+"""Programs that solve a rack, one module each."""

@@ -1,0 +1,114 @@
+"""Elements of the job as pipes, rigid bodies, reducers and expansion joints of the model."""
+
+from dataclasses import replace
+
+from trunnion.formats.caesar.bodies import Bodies
+from trunnion.formats.caesar.geometry import Labels, size
+from trunnion.formats.caesar.job import Element, Job, Vec
+from trunnion.formats.caesar.properties import Properties
+from trunnion.formats.findings import Findings
+from trunnion.model import Bend, Model, Pipe, Support
+
+_KINDS = {1: "valve", 2: "flange", 3: "flange pair", 4: "flanged valve"}
+
+
+class Pipes:
+    """Adds the pipes of all elements, and the bends."""
+
+    def __init__(self, job: Job, labels: Labels, model: Model, findings: Findings) -> None:
+        self.job = job
+        self.labels = labels
+        self.model = model
+        self.findings = findings
+        self.properties = Properties(job, model, findings)
+        self.bodies = Bodies(job, model, findings, self.properties)
+
+    def add(self) -> None:
+        """Add all of them."""
+        for i, e in enumerate(self.job.elements):
+            self._refuse(e, f"element {e.start}-{e.end}")
+            if e.start == e.end:
+                text = f"element {e.start}-{e.end} starts and ends at the same node"
+                self.findings.fault(e.line, text)
+            elif size(e.delta) == 0.0 and e.joint is None:
+                self._tie(i, e)
+            else:
+                self._pipe(i, e)
+
+    def add_bends(self) -> None:
+        """Add the bends, in the order of their elements."""
+        for node, corner in self.labels.corners.items():
+            e = self.job.elements[corner.before]
+            bend = e.bend
+            assert bend is not None
+            k = bend.k if bend.k >= 1.0 else None
+            place = self.findings.place(e.line)
+            made = Bend(str(node), corner.radius, k=k, flanges=bend.flanges, place=place)
+            self.model.bends.append(made)
+            arc = self.labels.arc
+            nodes = [f", node {n} is {arc[n]}" for _, n in bend.nodes if n in arc]
+            self.findings.note(made, f"bend of line {bend.line}" + "".join(nodes))
+        self.model.bends.sort(key=lambda record: record.place.line)
+
+    def _refuse(self, e: Element, name: str) -> None:
+        """Tell what of an element has no counterpart."""
+        leave = self.findings.leave_out
+        if e.offsets is not None and (any(e.offsets.start) or any(e.offsets.end)):
+            leave(e.offsets.line, name, "offsets of its ends; taken without")
+        strains = [n + 1 for n, x in enumerate(e.strain) if x is not None]
+        if strains:
+            text = f"T{strains[0]} is an expansion (length by length), not a temperature"
+            leave(e.line, name, f"{text}; taken as ambient temperature")
+        if e.bend is not None and e.bend.miters:
+            leave(e.bend.line, name, f"mitre bend of {e.bend.miters} cuts; taken as smooth bend")
+        fitting = e.bend.fitting_wall if e.bend is not None else 0.0
+        if e.bend is not None and fitting > 0.0 and abs(fitting - e.wall) > 5e-3 * e.wall:
+            text = f"bend with a wall of {1e3 * fitting:.4g} mm; taken with the wall of the pipe"
+            leave(e.bend.line, name, text)
+
+    def _tie(self, i: int, e: Element) -> None:
+        """Join the ends of an element without length rigidly."""
+        start, end = self.labels.ends(i)
+        made = Support(end, "anchor", (), start, place=self.findings.place(e.line))
+        self.model.supports.append(made)
+        text = f"element {e.start}-{e.end} has no length: its ends are joined rigidly"
+        self.findings.assume(text, e.line)
+        self.findings.note(made, f"element {i + 1} (line {e.line}) without length")
+
+    def _pipe(self, i: int, e: Element) -> None:
+        """Add one pipe or body; a rigid at a bend has a pipe for its tangent."""
+        section, material = self.properties.section(e), self.properties.material(e)
+        operation = self.properties.operation(e)
+        if not section:
+            return
+        start, end = self.labels.ends(i)
+        place = self.findings.place(e.line)
+        made = Pipe(start, end, e.delta, section, material, operation, place=place)
+        corner = self.labels.corners.get(e.start)
+        if e.rigid is not None and corner is not None and corner.after == i:
+            part = corner.tangent / size(e.delta)
+            if size(e.delta) - corner.tangent <= 1e-9:
+                text = "rigid element that is no longer than the tangent of a bend; taken as pipe"
+                self.findings.leave_out(e.line, f"element {e.start}-{e.end}", text)
+                e = replace(e, rigid=None)
+            else:
+                weld = f"{e.start}T"
+                tangent = replace(made, end=weld, delta=_times(part, e.delta))
+                self._append(i, e, tangent, "tangent of the bend before the rigid")
+                made = replace(made, start=weld, delta=_times(1.0 - part, e.delta))
+        self._append(i, e, self.bodies.dressed(i, e, made))
+
+    def _append(self, i: int, e: Element, made: Pipe, more: str = "") -> None:
+        """Add one pipe with its comment."""
+        self.model.pipes.append(made)
+        names = [n for n in e.names if n]
+        text = f"element {i + 1}, line {e.line}"
+        text += f": {e.name}" if e.name else ""
+        text += f" ({' - '.join(names)})" if names else ""
+        if e.rigid is not None and made.rigid:
+            more = _KINDS.get(e.rigid.type, "rigid element")
+        self.findings.note(made, f"{text}: {more}" if more else text)
+
+
+def _times(f: float, v: Vec) -> Vec:
+    return f * v[0], f * v[1], f * v[2]

@@ -1,0 +1,163 @@
+"""Supports and anchors of a line: records at one node are one support."""
+
+from collections.abc import Mapping, Sequence
+
+from trunnion.errors import DeckError
+from trunnion.formats.findings import Findings
+from trunnion.formats.pcf.assemble import Line
+from trunnion.formats.pcf.network import Places
+from trunnion.formats.pcf.openends import where
+from trunnion.formats.pcf.parts import Part, Point, plain
+from trunnion.formats.pcf.supportwords import Meaning, add_words, meaning_of, merged
+from trunnion.formats.sidetable import SideTable
+from trunnion.model import Support
+from trunnion.system.vectors import Vec
+
+OPEN_ENDS = "open-ends"
+
+
+def add_supports(
+    line: Line, placed: Sequence[tuple[Part, int]], table: SideTable, findings: Findings
+) -> None:
+    """Add the supports; the file's repeated records of one point are one card."""
+    at: dict[int, list[tuple[Part, Meaning]]] = {}
+    unknown: dict[str, list[Part]] = {}
+    for part, node in placed:
+        meaning = meaning_of(part, table)
+        if meaning is None:
+            said = part.get("SUPPORT_NAME") or part.get("NAME") or part.get("SKEY") or "no name"
+            unknown.setdefault(said, []).append(part)
+            continue
+        if meaning.guess:
+            findings.assume(f"supports {meaning.why}: taken as {meaning.words}", part.line)
+        at.setdefault(node, []).append((part, meaning))
+    for said, parts in unknown.items():
+        text = f"{said}: nothing says what it holds; name it under [supports] of the side table"
+        for part in parts:
+            findings.leave_out(part.line, f"support at line {part.line}", text)
+    for node, records in at.items():
+        _add_at(line, node, records, findings)
+    if any(s.kind == "support" for s in line.model.supports) and not line.model.settings.mu:
+        findings.assume(
+            "supports have neither friction nor gap: a PCF does not hold them (mu in the side "
+            "table, MU= and GAP= under [supports])"
+        )
+
+
+def _add_at(
+    line: Line, node: int, records: Sequence[tuple[Part, Meaning]], findings: Findings
+) -> None:
+    """Add the supports of one node: plain directions together, others a card each."""
+    label = line.labels.get(node)
+    if label is None:
+        return
+    words = dict.fromkeys(m.words for _, m in records)
+    first = {m.words: part for part, m in reversed(records)}
+    why = {m.words: m.why for _, m in records}
+    if "ANCHOR" in words:
+        add_anchor(line, node, f"line {first['ANCHOR'].line}: SUPPORT {why['ANCHOR']}", findings)
+        words.pop("ANCHOR")
+    plain_words = [w for w in words if "=" not in w and w not in ("IGNORE",) and w in _SIMPLE]
+    cards = [*([" ".join(merged(plain_words))] if plain_words else [])]
+    cards += [w for w in words if w not in plain_words]
+    for card in cards:
+        source = [p for p, m in records if m.words == card or m.words in plain_words]
+        part = source[0] if source else records[0][0]
+        if card == "SPRING":
+            _designed(line, label, part, findings)
+            continue
+        before = len(line.model.supports)
+        try:
+            add_words(
+                line.model, label, card, findings.place(part.line), line.along(node), _name(part)
+            )
+        except DeckError as error:
+            for problem in error.problems:
+                findings.fault(part.line, f"{part.name}: {problem.text}")
+        for support in line.model.supports[before:]:
+            reasons = ", ".join(dict.fromkeys(why.get(w, w) for w in words))
+            findings.note(support, f"line {part.line}: SUPPORT {reasons}")
+
+
+_SIMPLE = frozenset(("+X", "-X", "X", "+Y", "-Y", "Y", "+Z", "-Z", "Z", "GUIDE", "LIMIT"))
+
+
+def _name(part: Part) -> str | None:
+    """Name of a support for the reports."""
+    said = part.get("SUPPORT_NAME") or part.get("NAME") or part.get("COMPONENT-IDENTIFIER") or ""
+    clean = "".join(c if c.isalnum() or c in "-_./+" else "-" for c in said)[:40].strip("-")
+    return clean or None
+
+
+def _designed(line: Line, label: str, part: Part, findings: Findings) -> None:
+    """Leave out a spring that nothing gives a rate and a load."""
+    text = "spring support without rate and load; left out (SPRING LOAD= RATE= in the side table)"
+    findings.leave_out(part.line, f"node {label}", text)
+
+
+def add_anchor(line: Line, node: int, why: str, findings: Findings) -> None:
+    """Anchor a node, once."""
+    label = line.labels.get(node)
+    if label is None or any(s.kind == "anchor" and s.node == label for s in line.model.supports):
+        return
+    anchor = Support(label, "anchor")
+    line.model.supports.append(anchor)
+    findings.note(anchor, why)
+
+
+def add_anchors(line: Line, asked: Sequence[str], unit: float, findings: Findings) -> None:
+    """Anchor what options and table ask for: labels, "E,N,Up" in the file's unit, open ends."""
+    nodes = {label: node for node, label in line.labels.items()}
+    for text in asked:
+        where_ = _coordinates(text, unit)
+        if text.strip().lower() == OPEN_ENDS:
+            for node in line.net.open_ends:
+                add_anchor(line, node, "anchored: open end (--anchor open-ends)", findings)
+        elif where_ is not None:
+            node = Places(line.net).node(where_, 0.01)
+            if node < 0 or node not in line.labels:
+                findings.fault(0, f"--anchor {text}: no node within 10 mm of these coordinates")
+            else:
+                add_anchor(line, node, f"anchored: --anchor {text}", findings)
+        elif text.strip().upper() in nodes:
+            add_anchor(line, nodes[text.strip().upper()], f"anchored: --anchor {text}", findings)
+        else:
+            ends = ", ".join(line.labels[n] for n in line.net.open_ends if n in line.labels)
+            findings.fault(
+                0, f"--anchor {text}: there is no such node; open ends are {ends or 'none'}"
+            )
+
+
+def _coordinates(text: str, unit: float) -> Vec | None:
+    numbers = [plain(word.strip()) for word in text.split(",")]
+    if len(numbers) != 3:
+        return None
+    x, y, z = (float("nan") if n is None else n * unit for n in numbers)
+    return (x, y, z) if x + y + z - (x + y + z) == 0.0 else None
+
+
+def report_ends(
+    line: Line,
+    ends: Sequence[tuple[str, Point, str]],
+    tolerance: float,
+    findings: Findings,
+) -> None:
+    """Anchor ends at equipment, and say of all other open ends that they are free."""
+    places = Places(line.net)
+    anchored = {s.node for s in line.model.supports if s.kind == "anchor"}
+    for keyword, point, reference in ends:
+        if keyword == "END-CONNECTION-EQUIPMENT":
+            node = places.node(point.xyz, tolerance)
+            what = f"{keyword} {reference}".strip()
+            if node < 0 or node not in line.labels:
+                findings.leave_out(point.line, what, "no end of the line is there")
+            elif line.labels[node] not in anchored:
+                add_anchor(line, node, f"line {point.line}: {what}", findings)
+                anchored.add(line.labels[node])
+                findings.assume(f"node {line.labels[node]}: {what} taken as an anchor", point.line)
+    held: Mapping[str, object] = {s.node: s for s in line.model.supports}
+    for node, part in line.net.open_ends.items():
+        label = line.labels.get(node)
+        if label is not None and label not in anchored and label not in held:
+            text = f"node {label}: open end of {part.name} at {where(line.net, node)} is free"
+            findings.assume(text, part.line)
