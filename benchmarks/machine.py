@@ -24,6 +24,7 @@ def note(scope: str) -> dict[str, str]:
         "cores": str(os.cpu_count()),
         "memory": memory(),
         "system": platform.platform(terse=True),
+        "load average at the end": f"{os.getloadavg()[2]:.1f}",
         "threads": "1 for every program",
         "python": platform.python_version(),
         "CHOLMOD": cholmod(),

@@ -15,7 +15,7 @@ class Loads:
         self.labels = labels
         self.model = model
         self.findings = findings
-        self._done: set[int] = set()  # lines of records
+        self._done: set[int] = set()  # identities: all records of an XML may stand on one line
 
     def element(self, e: Element) -> None:
         """Add displacements and forces of one element."""
@@ -54,9 +54,9 @@ class Loads:
 
     def _label(self, record: Sets, what: str) -> str | None:
         """Label of the node; None for a record that was read already or stands nowhere."""
-        if record.line in self._done:
+        if id(record) in self._done:
             return None
-        self._done.add(record.line)
+        self._done.add(id(record))
         label = self.labels.node(record.node) or self._connecting(record.node)
         if label is None:
             text = f"{what} at node {record.node}, which no element has"
