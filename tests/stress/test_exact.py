@@ -5,7 +5,7 @@ with the reported contact states, so that a displacement is known to be right, n
 """
 
 import pytest
-from exact import Judge, committed, reported
+from ballarithmetic import Judge, committed, reported
 from invent import invented
 from plainscenes import model
 
