@@ -10,7 +10,7 @@ from dataclasses import replace
 
 import pytest
 from cii import ENGLISH, ENGLISH_LABELS, Cii
-from cii_jobs import ANC, LIM, RESTING, VERSIONS, Y, everything, job, slot
+from cii_jobs import ANC, GUI, LIM, RESTING, VERSIONS, Y, everything, job, slot
 
 from trunnion.deck.reader import read_text
 from trunnion.errors import DeckError
@@ -525,3 +525,57 @@ def test_flexible_nozzles_are_named_and_held():
     (problem,) = problems_of(c)
     assert "node 10: flexible nozzle; taken as rigid" in problem
     assert model_of(c, permissive=True).supports[0].kind == "anchor"
+
+
+def test_a_guide_at_the_end_of_a_bend_follows_the_pipe_that_leaves():
+    c = job()
+    guide = [slot(10, ANC), slot(20, GUI)]
+    c.add(10, 20, dx=2000.0, RESTRANT=guide, BEND={"radius": 381.0})
+    c.add(20, 30, dz=2000.0)
+    assert model_of(c).supports[1].directions[0].along is None
+    c.add(20, 120, dy=-500.0)  # a dummy leg
+    assert model_of(c).supports[1].directions[0].along == "20-30"
+
+
+def test_numbers_off_their_columns_are_read_by_words():
+    c = job()
+    c.add(10, 20, dx=1000.0, RESTRANT=[slot(10, ANC)])
+    text = c.text()
+    at = text.index("#$ MISCEL_1") + len("#$ MISCEL_1\r\n")
+    end = text.index("\r\n", at)
+    loose = text[:at] + "   106.0" + text[end:]
+    source = source_of(loose.encode(), "line.cii")
+    result = read(source, Findings(source))
+    assert list(result.model.materials) == ["A106-B"]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("#$ UNITS", "#$ UNITZ", "section UNITS is missing"),
+        ("#$ BEND    ", "#$ RIGID   ", "there is a section RIGID in line"),
+        ("11.000000", " 4.500000", "the layout of version 4.5"),
+        ("203400.", "2034x0.", "'2034x0.' is not a number"),
+    ],
+)
+def test_what_is_wrong_is_named(old, new, said):
+    c = job()
+    c.add(10, 20, dx=1000.0, RESTRANT=[slot(10, ANC)])
+    source = source_of(c.text().replace(old, new, 1).encode(), "line.cii")
+    with pytest.raises(DeckError, match=said):
+        read(source, Findings(source))
+
+
+def test_a_pointer_beyond_its_array_and_cut_off_lines_are_named():
+    c = job()
+    c.add(10, 20, dx=1000.0, RESTRANT=[slot(10, ANC)])
+    lines = c.text().split("\r\n")
+    at = next(i for i, x in enumerate(lines) if x.startswith("#$ RESTRANT"))
+    source = source_of("\n".join(lines[: at + 5] + lines[at + 6 :]).encode(), "line.cii")
+    with pytest.raises(DeckError, match="RESTRANT has 23 lines"):
+        read(source, Findings(source))
+    pointers = next(i for i, x in enumerate(lines) if x.startswith("#$ AUX_DATA")) - 3
+    lines[pointers] = lines[pointers].replace("1", "7")
+    source = source_of("\n".join(lines).encode(), "line.cii")
+    with pytest.raises(DeckError, match="points to record 7 of RESTRANT, which has 1"):
+        read(source, Findings(source))

@@ -29,7 +29,7 @@ def load(tmp_path):
 
 @pytest.fixture
 def whole(load):
-    return load(everything(), permissive=True)
+    return load(everything())
 
 
 def named(model, record):
@@ -112,6 +112,49 @@ def test_an_olet_splits_the_run_and_is_stiff_inside_it(whole):
     inside, outside = named(whole.model, ("180", "310")), named(whole.model, ("310", "320"))
     assert (inside.rigid, inside.weight, inside.delta) == (True, 0.0, (0.0, 0.0, 0.05715))
     assert (outside.rigid, outside.delta) == (False, (0.0, 0.0, 0.05285))
+
+
+def test_a_reducer_tapers_from_section_to_section(whole):
+    reducer = named(whole.model, ("200", "210"))
+    assert (reducer.section, reducer.reducer.section) == ("4IN-40", "3IN-40")
+    assert (reducer.delta, reducer.reducer.axis) == ((0.0, 0.102, 0.0), None)
+
+
+def test_an_eccentric_reducer_has_the_axis_of_its_pipes(load):
+    text = HEADER + pipe((0, 0, 0), (1000, 0, 0), 80.0)
+    text += block("REDUCER-ECCENTRIC", ((1000, 0, 0), 80), ((1102, 0, 12.7), 100))
+    model = load(text + pipe((1102, 0, 12.7), (3000, 0, 12.7)), anchors=("10", "40")).model
+    (reducer,) = (p for p in model.pipes if p.reducer)
+    assert (reducer.section, reducer.reducer.section) == ("3IN-40", "4IN-40")
+    assert reducer.reducer.axis == (1.0, 0.0, 0.0)
+    assert trunnion.solve(model)["OPE"].certificate.passed
+
+
+def test_a_support_on_a_reducer_moves_to_its_nearer_end(load):
+    text = HEADER + pipe((0, 0, 0), (1000, 0, 0), 80.0)
+    text += block("REDUCER-CONCENTRIC", ((1000, 0, 0), 80), ((1102, 0, 0), 100))
+    text += pipe((1102, 0, 0), (3000, 0, 0)) + support((1080, 0, 0), "SKID", "DOWN")
+    model = load(text).model
+    assert [s.node for s in model.supports] == ["30"]
+    assert len(model.pipes) == 3
+
+
+def test_a_spring_is_a_hanger_to_be_designed(load):
+    text = STRAIGHT + support((1500, 0, 0), "SPRG", "UP")
+    imported = load(text, anchors=("10",))
+    (hanger,) = (s for s in imported.model.supports if s.kind == "hanger")
+    assert (hanger.node, hanger.design.variation) == ("30", 0.25)
+    assert any("selected by the program" in str(a) for a in imported.assumed)
+    table = TABLE + '"SPRG*" = "SPRING LOAD=5kN RATE=50N/mm"\n'
+    (given,) = (s for s in load(text, table).model.supports if s.kind == "hanger")
+    assert (given.load, given.k, given.design) == (5000.0, 50e3, None)
+
+
+def test_flanges_and_valves_keep_their_names(whole):
+    bodies = {(p.start, p.end): p.body for p in whole.model.pipes if p.rigid and p.weight}
+    assert bodies["100", "110"] == bodies["380", "390"] == "FLANGE"
+    assert bodies["370", "380"] == bodies["260", "270"] == "VALVE"
+    assert bodies["230", "240"] == ""  # INSTRUMENT
 
 
 def test_a_branch_on_the_surface_of_a_pipe_is_joined_to_its_axis(whole):

@@ -426,3 +426,52 @@ def test_python_words_make_the_same_components():
     model.joint(4, 5, DX=0.3, AXIAL=1e5, LATERAL=1e5)
     assert read_text(model.deck()) == model
     assert [p.card for p in model.pipes] == ["REDUCER", "VALVE", "FLANGE", "JOINT"]
+
+
+# --- offsets
+
+BRANCH = """ANCHOR 1
+PIPE 1 2 DX=2
+PIPE 2 3 DX=2
+ANCHOR 3
+{branch}FORCE 5 F1 FX=4000 FY=-3000 FZ=5000
+CASE A = F1 + W
+CASE B = T1
+"""
+
+
+def test_offset_is_a_weightless_rigid_arm_from_node_to_pipe():
+    """The same branch through a spring of 1e12 in all directions to a node of its own."""
+    off = "PIPE 2 5 DY=3 OFFSET1=(0,0.13655,0)\n"
+    arm = ("NODE 1 X=0\nNODE 4 X=2 Y=0.13655\nSPRING 2 4 KX=1e12 KY=1e12 KZ=1e12 KRX=1e12 "
+           "KRY=1e12 KRZ=1e12\nPIPE 4 5 DY=2.86345\n")  # fmt: skip
+    a, b = (solved(BRANCH.format(branch=branch), LINE) for branch in (off, arm))
+    for name in "AB":
+        assert moved(a, "5", name) == pytest.approx(moved(b, "5", name), rel=1e-9, abs=1e-15)
+        for node in "13":
+            for key in ("fx", "fy", "fz", "mx", "my", "mz"):
+                want = b[name].supports[node][key]
+                assert a[name].supports[node][key] == pytest.approx(want, rel=1e-9, abs=1e-6)
+
+
+def test_offset_shortens_the_cantilever_and_carries_its_moment():
+    """Anchor, arm of 0.5 m, cantilever of 2.5 m: sag P L3/3EI, moment at the anchor P 3 m."""
+    results = solved("ANCHOR 1\nPIPE 1 2 DX=3 OFFSET1=(0.5,0,0)\nFORCE 2 F1 FY=-1000\nCASE A = F1\n"
+                     "CASE B = W\n", "DEFAULT SHEAR=OFF\n" + PIPES.partition("\n")[2])  # fmt: skip
+    od, bore = 0.1683, 0.1683 - 2 * 7.11e-3
+    ei = 200e9 * pi / 64 * (od**4 - bore**4)
+    arm = 1000 / 1e12 + 1000 * 2.75 / 1e12 * 2.75  # it yields, and turns, at its middle
+    assert moved(results, "2")[1] == pytest.approx(-1000 * 2.5**3 / (3 * ei) - arm, rel=1e-10)
+    assert results["A"].supports["1"]["mz"] == pytest.approx(3000.0, rel=1e-12)
+    whole = solved("ANCHOR 1\nPIPE 1 2 DX=2.5\nCASE B = W\n", PIPES)
+    weight = whole["B"].supports["1"]["fy"]
+    assert results["B"].supports["1"]["fy"] == pytest.approx(weight, rel=1e-12)
+
+
+def test_offsets_go_round_and_are_echoed():
+    model = read_text("UNITS mm N bar C\n" + "MATERIAL A E=200GPa\nSECTION S OD=273.1 WALL=9.27\n"
+                      "ANCHOR 1\nPIPE 1 2 DX=3000 OFFSET1=(0,136.55,0) OFFSET2=(5,0,-2.5)\n"
+                      "CASE SUS = W\n")  # fmt: skip
+    assert model.pipes[0].offsets == ((0.0, 0.13655, 0.0), (0.005, 0.0, -0.0025))
+    assert read_text(model.deck()) == model
+    assert "OFFSETS" in text_report(trunnion.solve(model), model).decode()

@@ -127,6 +127,10 @@ _CUT = (
     _number("CUTSHORT", "cold spring: made too short by this, set CS", "length", "0", POSITIVE),
     _number("CUTLONG", "cold spring: made too long by this, set CS", "length", "0", POSITIVE),
 )
+_OFFSETS = (
+    Key("OFFSET1", "rigid arm from the first node to the pipe's end", "", "lengths", "none"),
+    Key("OFFSET2", "rigid arm from the second node to the pipe's end", "", "lengths", "none"),
+)
 _TWO = (_node("a", "first node"), _node("b", "second node"))
 _BODY = (
     *_RUN,
@@ -294,10 +298,13 @@ TABLE: tuple[Keyword, ...] = (
         "PIPE",
         "A straight pipe; at a bend it runs to the intersection of the tangents.",
         (_node("a", "first node"), _node("b", "second node")),
-        (*_RUN, *_CUT, *_OPERATION),
+        (*_RUN, *_CUT, *_OFFSETS, *_OPERATION),
         notes=(
             "DX DY DZ, or LENGTH and DIR; with none of them both ends must have coordinates.",
             "SECTION, MATERIAL and the keys of OPERATE hold for the pipes that follow, too.",
+            "With OFFSET1 or OFFSET2 the pipe starts or ends off its node, as a branch does at the "
+            "wall of its header; DX DY DZ lead from node to node. The arm has 1e12 N/m (DEFAULT K, "
+            "KR) at its middle and no weight.",
             "CUTSHORT and CUTLONG are cold spring: the pipe is made that much shorter or longer "
             "than the drawing says and pulled into place. Set CS of a CASE makes it act.",
         ),

@@ -13,6 +13,7 @@ from trunnion.model import Bend, Mass, Node, Pipe, Spring, Support
 
 _DELTA = frozenset(("DX", "DY", "DZ"))
 _BODIES = frozenset(("RIGID", "VALVE", "FLANGE"))
+_SPECIAL = frozenset(("CUTSHORT", "CUTLONG", "OFFSET1", "OFFSET2"))
 _NOTHING: dict[str, Any] = {}
 _OPERATION = frozenset(("TREF", *TEMPERATURE_SETS, *PRESSURE_SETS))
 
@@ -40,8 +41,9 @@ def pipe(run: Context, record: Record) -> None:
         delta, more = joint(run, record, delta)
     elif word in _BODIES:
         more = {"body": "" if word == "RIGID" else word}
-    elif "CUTSHORT" in keys or "CUTLONG" in keys:
+    elif not _SPECIAL.isdisjoint(keys):
         more = {"cut": cold_spring(run, record)}
+        more["offsets"] = (keys.get("OFFSET1"), keys.get("OFFSET2"))
     if start == end:
         run.complain(record, f"both ends are node {end}", 2)
     elif delta == (0.0, 0.0, 0.0) and word != "JOINT":

@@ -132,7 +132,13 @@ def _values(key: Key) -> str:
     """Say what values a key takes."""
     if key.choices:
         return " ".join(key.choices)
-    words = {"gap": "length or angle", "vector": "(a,b,c)", "along": "pipe a-b", "node": "node"}
+    words = {
+        "gap": "length or angle",
+        "vector": "(a,b,c)",
+        "lengths": "lengths (x,y,z)",
+        "along": "pipe a-b",
+        "node": "node",
+    }
     text = words.get(key.kind, key.kind)
     if key.kind == "pairs":
         return f"({key.dimension.replace(', ', ',')}),(...) ..."

@@ -79,6 +79,17 @@ def vector(value: object) -> Vector:
     return x, y, z
 
 
+def lengths(value: object, scale: Scale) -> Vector:
+    """Three lengths of "(a,b,c)" or of a sequence; not all zero."""
+    parts = value.strip().strip("()").split(",") if isinstance(value, str) else value
+    if not isinstance(parts, (list, tuple)) or len(parts) != 3:
+        raise WordError(f"{value} is not (x,y,z) of three lengths")
+    x, y, z = (number(p, scale, "length") for p in parts)
+    if x == y == z == 0.0:
+        raise WordError(f"{value} has no length")
+    return x, y, z
+
+
 def gap(value: object, scale: Scale, dimension: str) -> tuple[float, float]:
     """Clearances minus and plus of "a" or "a,b"."""
     parts = value.split(",") if isinstance(value, str) else value
@@ -196,6 +207,8 @@ def reader_of(key: Key, scales: dict[str, Scale], dimension: str = "") -> Reader
         case "pairs":
             x, y = dimension.split(", ")
             return lambda value: pairs(value, (scales[x], scales[y]), (x, y))
+        case "lengths":
+            return lambda value: lengths(value, scales["length"])
         case "gap":
             return lambda value: gap(value, scales[dimension], dimension)
     if bounds is not ANY:

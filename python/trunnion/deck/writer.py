@@ -130,6 +130,8 @@ class _Writer:
             key = table[name]
             if key.kind == "number":
                 found.append((name, self.number(value, key.dimension)))
+            elif key.kind == "lengths":
+                found.append((name, f"({','.join(self.number(x, 'length') for x in value)})"))
             elif key.kind == "vector":
                 found.append((name, self.vector(value)))
             elif key.kind == "pairs":
@@ -321,6 +323,8 @@ class _Writer:
         if pipe.joint is not None:
             values |= {name.upper(): value for name, value in asdict(pipe.joint).items()}
             values["AREA"] = pipe.joint.area or None
+        for key, arm in zip(("OFFSET1", "OFFSET2"), pipe.offsets, strict=True):
+            values[key] = arm
         if pipe.cut:
             values["CUTSHORT" if pipe.cut > 0.0 else "CUTLONG"] = abs(pipe.cut)
         return self.keys(pipe.card, values)

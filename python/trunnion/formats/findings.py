@@ -31,6 +31,8 @@ class Findings:
         self.left_out: list[LeftOut] = []
         self.assumed: list[Assumption] = []
         self.notes: list[Note] = []
+        self._said: set[str] = set()
+        self._noted: dict[int, list[int]] = {}  # identity of a record -> its notes
 
     def place(self, line: int) -> Place:
         """Place of a line of the file (from 1), for records of the model."""
@@ -59,17 +61,20 @@ class Findings:
 
     def assume(self, text: str, line: int = 0) -> None:
         """Note a choice where the file is silent; the same text is kept once."""
-        entry = Assumption(text, self._where(line) if line else "")
-        if len(self.assumed) < MOST and all(text != old.text for old in self.assumed):
-            self.assumed.append(entry)
+        if len(self.assumed) < MOST and text not in self._said:
+            self._said.add(text)
+            self.assumed.append(Assumption(text, self._where(line) if line else ""))
 
     def note(self, record: object, text: str) -> None:
         """Put a comment above the card of a record of the model."""
+        self._noted.setdefault(id(record), []).append(len(self.notes))
         self.notes.append(Note(record, text))
 
     def renote(self, old: object, new: object) -> None:
         """Move the comments of a record to the one that takes its place."""
-        self.notes = [Note(new, n.text) if n.record is old else n for n in self.notes]
+        for k in self._noted.pop(id(old), ()):
+            self.notes[k] = Note(new, self.notes[k].text)
+            self._noted.setdefault(id(new), []).append(k)
 
     def stop(self) -> None:
         """Raise all problems, if there are any."""

@@ -77,4 +77,5 @@ def uniform_loads(model: Model, system: System, weight: F8) -> dict[str, F8]:
 def _joints(model: Model, system: System) -> list[tuple[int, int]]:
     """Elements that are expansion joints, with their pipes."""
     at = np.flatnonzero((system.kind == SPRING) & (system.source >= 0))
-    return [(e, int(system.source[e])) for e in at.tolist()]
+    own = [(e, int(system.source[e])) for e in at.tolist()]
+    return [(e, i) for e, i in own if model.pipes[i].joint is not None]

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from trunnion.arrays import F8, System
+from trunnion.arrays import F8, SPRING, System
 from trunnion.model import Material, Model, Pipe, Section
 
 WATER = 1000.0  # contents of the hydrotest [kg/m3]
@@ -61,7 +61,8 @@ def line_weights(model: Model, system: System) -> dict[str, F8]:
         else:
             rows.append((0.0,) * 4)
     rows.append((0.0,) * 4)
-    body, empty_row, fluid_row, water_row = np.array(rows)[system.source].T
+    own = np.where(system.kind == SPRING, -1, system.source)  # springs, arms of offsets: nothing
+    body, empty_row, fluid_row, water_row = np.array(rows)[own].T
     length = np.where(system.length > 0.0, system.length, 1.0)
     empty_row = empty_row + body / length
     return {"WNC": empty_row, "W": empty_row + fluid_row, "WW": empty_row + water_row}

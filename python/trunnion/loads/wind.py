@@ -119,7 +119,7 @@ def widths(model: Model, system: System) -> F8:
     for i, pipe in enumerate(model.pipes):
         if pipe.reducer is not None:
             rows[i] = 0.5 * (rows[i] + cover[pipe.reducer.section])
-    found: F8 = np.array([*rows, 0.0])[system.source]
+    found: F8 = np.where(system.kind == SPRING, 0.0, np.array([*rows, 0.0])[system.source])
     return found
 
 

@@ -15,6 +15,7 @@ def component_echo(model: Model, system: System, units: ReportUnits) -> str:
             _reducers(system, units),
             _joints(model, system, units),
             _cuts(model, units),
+            _offsets(model, units),
             _uniform(model, units),
         )
     )
@@ -41,7 +42,8 @@ def _reducers(system: System, units: ReportUnits) -> str:
 
 
 def _joints(model: Model, system: System, units: ReportUnits) -> str:
-    at = np.flatnonzero((system.kind == SPRING) & (system.source >= 0))
+    named = np.array([part.type == "joint" for part in system.parts], bool)
+    at = np.flatnonzero((system.kind == SPRING) & named)
     if not at.size:
         return ""
     parts = [system.parts[i] for i in at.tolist()]
@@ -71,6 +73,19 @@ def _cuts(model: Model, units: ReportUnits) -> str:
         numbers("CUT", [p.cut for p in cut], units.movement),
     ]
     return section("COLD SPRING", "set CS; cut short > 0, long < 0") + table(columns)
+
+
+def _offsets(model: Model, units: ReportUnits) -> str:
+    rows = [(p, i, arm) for p in model.pipes for i, arm in enumerate(p.offsets, 1) if arm]
+    if not rows:
+        return ""
+    columns = [
+        words("FROM", [p.start for p, _, _ in rows]),
+        words("TO", [p.end for p, _, _ in rows]),
+        integers("END", [i for _, i, _ in rows]),
+        *(numbers(a, [arm[k] for _, _, arm in rows], units.wall) for k, a in enumerate("XYZ")),
+    ]
+    return section("OFFSETS", "rigid arms from the node to the end of the pipe") + table(columns)
 
 
 def _uniform(model: Model, units: ReportUnits) -> str:

@@ -86,6 +86,9 @@ def find_legs(model: Model, problems: list[Problem]) -> dict[str, Legs]:
             card = next(c for i in pipes if (c := model.pipes[i].card) != "PIPE").lower()
             text = f"{name}: a {card} cannot be the tangent of a bend ({names}); put a pipe between"
             problems.append(Problem(bend.place, text))
+        elif any(model.pipes[i].offsets != (None, None) for i in pipes):
+            text = f"{name}: a pipe with an offset cannot be the tangent of a bend ({names})"
+            problems.append(Problem(bend.place, text))
         elif bend.radius is not None and not bend.radius > 0.0:
             problems.append(Problem(bend.place, f"{name}: the radius must be positive"))
         else:

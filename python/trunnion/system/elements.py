@@ -70,12 +70,15 @@ def build_elements(
         length[e] = 0.0
     for e in np.flatnonzero((kind == SPRING) & (source >= 0)).tolist():
         joint = model.pipes[source[e]].joint
-        assert joint is not None
+        if joint is None:  # the rigid arm of an offset
+            axes[e], length[e] = AXES, 0.0
+            spring[e] = np.repeat((model.settings.k, model.settings.kr), 3)
+            continue
         if joint.axis is not None or not length[e] > 0.0:
             axes[e] = upright(unit(joint.axis or AXES[0]), up)
         spring[e] = joint_rates(joint, float(length[e]), model)
     taper = _tapers(model, np.flatnonzero(kind == TAPER).tolist(), source, run, axes, length)
-    values = _properties(model)[source]
+    values = np.where((kind == SPRING)[:, None], 0.0, _properties(model)[source])
     return Elements(
         ends=ends,
         kind=kind,

@@ -4,12 +4,12 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from trunnion.arrays import ARC, SPRING, STRAIGHT, TAPER, Part
-from trunnion.model import Model
+from trunnion.model import Model, Pipe
 from trunnion.system.bends import VANISHED, Corner
 from trunnion.system.checks import standing
 from trunnion.system.coordinates import BEND_POINT
 from trunnion.system.geometry import Geometry
-from trunnion.system.vectors import size, sub
+from trunnion.system.vectors import add, size, sub
 
 
 class Share(NamedTuple):
@@ -81,7 +81,7 @@ class Numbering:
 def number(model: Model, geometry: Geometry) -> Numbering:
     """Give nodes their numbers; list elements: each pipe, then the bend that it leads into."""
     numbering = Numbering()
-    corners, index, node, add = (
+    corners, index, node, put = (
         geometry.corners,
         numbering.index,
         numbering.node,
@@ -102,20 +102,39 @@ def number(model: Model, geometry: Geometry) -> Numbering:
             part = Part(a, b, kind, pipe.section, pipe.material, pipe.place.line)
             start = index[a] if a in index else node(a)
             law = SPRING if pipe.joint else TAPER if pipe.reducer else STRAIGHT
-            add(start, index[b] if b in index else node(b), law, i, part)
+            end = index[b] if b in index else node(b)
+            if pipe.offsets != (None, None):
+                start, end = _arms(numbering, geometry, i, pipe, (start, end))
+            put(start, end, law, i, part)
         if i in bends_of:
             for label in bends_of[i]:
                 _bend(label, corners[label], model, label + "M" in used, numbering)
     for spring in model.springs:
         a, b = (label + "F" if label in corners else label for label in (spring.start, spring.end))
         part = Part(a, b, "spring", None, None, spring.place.line)
-        add(node(a), node(b), SPRING, -1, part)
+        put(node(a), node(b), SPRING, -1, part)
     for label in corners:
         numbering.index[label] = numbering.alias[label] = numbering.node(label + "F")
     for label in users:
         if label not in index:
             node(label)
     return numbering
+
+
+def _arms(
+    numbering: Numbering, geometry: Geometry, i: int, pipe: Pipe, ends: tuple[int, int]
+) -> tuple[int, int]:
+    """Add the rigid arms of a pipe that starts or ends off its nodes; returns its own ends."""
+    own = list(ends)
+    for k, (label, arm) in enumerate(zip((pipe.start, pipe.end), pipe.offsets, strict=True)):
+        if arm is None:
+            continue
+        tip = f"{pipe.start}-{pipe.end}/{i}.{'AB'[k]}"  # no label of a deck has a hyphen
+        geometry.points[tip] = add(geometry.points[label], arm)
+        part = Part(label, tip, "arm", None, None, pipe.place.line)
+        own[k] = numbering.node(tip)
+        numbering.rows.add(ends[k], own[k], SPRING, i, part)
+    return own[0], own[1]
 
 
 def _used(model: Model, users: list[str]) -> set[str]:

@@ -22,6 +22,14 @@ class Bodies:
         self.findings = findings
         self.properties = properties
         self.uniforms = uniform_loads(job)
+        self._bent = {e.end for e in job.elements if e.bend is not None}
+        self._leaving: dict[int, list[int]] = {}
+        self._long: dict[int, Element] = {}
+        for i, e in enumerate(job.elements):
+            self._leaving.setdefault(e.start, []).append(i)
+            if size(e.delta) > 0.0:
+                self._long.setdefault(e.start, e)
+                self._long.setdefault(e.end, e)
 
     def dressed(self, i: int, e: Element, pipe: Pipe) -> Pipe:
         """Give the pipe of element `i` as the body that it is."""
@@ -52,7 +60,8 @@ class Bodies:
         """Make a reducer; a blank size at the TO end is that of the element that leaves it."""
         data = e.reducer
         assert data is not None
-        leaving = next((x for x in self.job.elements[i + 1 :] if x.start == e.end), None)
+        here = [j for j in self._leaving.get(e.end, ())[:9] if j != i]
+        leaving = self.job.elements[here[0]] if here else None
         od = data.od or (leaving.od if leaving else 0.0)
         wall = data.wall or (leaving.wall if leaving else 0.0)
         if not (od > 0.0 and 0.0 < wall <= 0.5 * od):
@@ -62,9 +71,7 @@ class Bodies:
         to = self.properties.section(replace(e, od=od, wall=wall, rigid=None))
         if to == pipe.section or not to:
             return pipe
-        if e.end in {x.end for x in self.job.elements if x.bend is not None} or (
-            e.start in {x.end for x in self.job.elements if x.bend is not None}
-        ):
+        if {e.start, e.end} & self._bent:
             text = "reducer at a bend; taken as pipe of the size at its FROM end"
             self.findings.leave_out(data.line, f"element {e.start}-{e.end}", text)
             return pipe
@@ -82,7 +89,7 @@ class Bodies:
             text = f"element {e.start}-{e.end}: blank rates of the expansion joint are rigid"
             text += ", or follow from the other of lateral and bending rate" if long else ""
             self.findings.assume(text, data.line)
-        axis = None if long else self._axis(i, e)
+        axis = None if long else self._axis(e)
         joint = Joint(
             data.axial,
             data.transverse or None,
@@ -95,16 +102,15 @@ class Bodies:
             joint = replace(joint, lateral=self.model.settings.k)
         return replace(pipe, joint=joint, weight=self._metal(e))
 
-    def _axis(self, i: int, e: Element) -> Vec:
+    def _axis(self, e: Element) -> Vec:
         """Direction of a joint without length: that of the next pipe at its ends."""
-        ends = {e.start, e.end}
-        near = [x for x in self.job.elements if ends & {x.start, x.end} and size(x.delta) > 0.0]
-        if not near:
+        near = self._long.get(e.start) or self._long.get(e.end)
+        if near is None:
             text = f"element {e.start}-{e.end}: nothing gives the direction of this joint"
             self.findings.fault(e.line, text)
             return 1.0, 0.0, 0.0
-        x, y, z = near[0].delta
-        length = size(near[0].delta)
+        x, y, z = near.delta
+        length = size(near.delta)
         return x / length, y / length, z / length
 
     def _metal(self, e: Element) -> float:

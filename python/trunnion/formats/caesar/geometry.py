@@ -1,6 +1,7 @@
 """Labels and bends: which label of the model each node of the job is."""
 
 from dataclasses import replace
+from functools import cached_property
 from math import acos, degrees, tan
 
 from trunnion.formats.caesar.job import MIDDLE, Element, Job, Vec
@@ -127,20 +128,20 @@ class Labels:
             if abs(angle - MIDDLE) < 1e-3:
                 angle = places["M"]
             point = min(places, key=lambda p: abs(places[p] - angle))
-            if abs(places[point] - angle) > SAME_ANGLE and self._is_used(label):
+            if abs(places[point] - angle) > SAME_ANGLE and label in self.used:
                 text = f"node {label} at {angle:g} degrees of the bend at {node}"
                 text += f"; taken to the point at {places[point]:g} degrees"
                 self.findings.leave_out(e.bend.line, f"element {e.start}-{e.end}", text)
             if label != node and label not in self.corners:
                 self.arc[label] = f"{node}{point}"
 
-    def _is_used(self, node: int) -> bool:
-        """Tell whether anything stands on a node."""
+    @cached_property
+    def used(self) -> set[int]:
+        """Nodes that anything stands on, or that an element has."""
         job = self.job
         used = {r.node for e in job.elements for r in e.restraints}
         used |= {s.node for e in job.elements for s in (*e.displacements, *e.forces)}
-        used |= {h.node for h in job.hangers}
-        return node in used or node in self.at
+        return used | {h.node for h in job.hangers} | self.at.keys()
 
 
 def size(v: Vec) -> float:

@@ -15,7 +15,10 @@ class Loads:
         self.labels = labels
         self.model = model
         self.findings = findings
-        self._done: set[int] = set()  # lines of records
+        self._done: set[int] = set()  # identities: all records of an XML may stand on one line
+        self._cnodes = {r.cnode for e in job.elements for r in e.restraints}
+        self._cnodes |= {h.cnode for h in job.hangers}
+        self._anchored = {s.node for s in model.supports if s.kind == "anchor"}
 
     def element(self, e: Element) -> None:
         """Add displacements and forces of one element."""
@@ -54,9 +57,9 @@ class Loads:
 
     def _label(self, record: Sets, what: str) -> str | None:
         """Label of the node; None for a record that was read already or stands nowhere."""
-        if record.line in self._done:
+        if id(record) in self._done:
             return None
-        self._done.add(record.line)
+        self._done.add(id(record))
         label = self.labels.node(record.node) or self._connecting(record.node)
         if label is None:
             text = f"{what} at node {record.node}, which no element has"
@@ -65,16 +68,16 @@ class Loads:
 
     def _connecting(self, node: int) -> str | None:
         """Label of a node that is only a CNODE of restraints."""
-        here = any(r.cnode == node for e in self.job.elements for r in e.restraints)
-        return str(node) if here or any(h.cnode == node for h in self.job.hangers) else None
+        return str(node) if node in self._cnodes else None
 
     def _displacements(self, e: Element, record: Sets, label: str) -> None:
         """Add imposed displacements; six zeros alone are an anchor."""
         held = [row for row in record.values if any(x is not None for x in row)]
         place = self.findings.place(e.line)
         if held and all(row == (0.0,) * 6 for row in held):
-            if any(s.node == label and s.kind == "anchor" for s in self.model.supports):
+            if label in self._anchored:
                 return
+            self._anchored.add(label)
             made = Support(label, "anchor", place=place)
             self.model.supports.append(made)
             text = f"held by displacements of 0 (line {record.line})"

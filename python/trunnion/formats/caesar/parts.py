@@ -36,21 +36,36 @@ class Parts:
         given = self._given()
         roots: list[tuple[str, Vec]] = []
         closing: list[int] = []
-        waiting = [pipe.start for pipe in self.model.pipes]
-        while waiting:
-            root = self._root(waiting, near, given)
-            if root is None:
-                break
-            label, place = root
-            roots.append(root)
-            self._follow(label, place, edges, near, closing)
-            waiting = [x for x in waiting if x not in self.position]
+        ties = self._ties()
+        tied: list[tuple[str, Vec]] = []  # parts that a CNODE joins to what is placed
+        waiting = [*given, *(pipe.start for pipe in self.model.pipes)]
+        for first in waiting:
+            if first in self.position or first not in near:
+                continue
+            tied.append((first, self._start(first, given)))
+            while tied:
+                label, place = tied.pop()
+                if label in self.position:
+                    continue
+                roots.append((label, place))
+                for new in self._follow(label, place, edges, near, closing):
+                    here = self.position[new]
+                    tied += [(b, here) for b in ties.get(new, ()) if b in near and b not in given]
         if len(roots) > 1 or (roots and any(roots[0][1])):
             for label, place in roots:
                 made = Node(label, place, self.findings.place(self._line(label)))
                 self.model.nodes.append(made)
         self.model.nodes.sort(key=lambda node: node.place.line)
         self._close(edges, closing)
+
+    def _ties(self) -> dict[str, list[str]]:
+        """Labels that supports join to each other."""
+        found: dict[str, list[str]] = {}
+        for support in self.model.supports:
+            if support.cnode is not None:
+                found.setdefault(support.node, []).append(support.cnode)
+                found.setdefault(support.cnode, []).append(support.node)
+        return found
 
     def _edges(self) -> list[Edge]:
         """Pipes and the points of bends."""
@@ -83,26 +98,14 @@ class Parts:
                 found[label] = xyz
         return found
 
-    def _root(
-        self, waiting: list[str], near: Mapping[str, list[int]], given: Mapping[str, Vec]
-    ) -> tuple[str, Vec] | None:
-        """Choose where the next part starts: given places, then CNODEs of placed nodes."""
-        for label, xyz in given.items():
-            if label in near and label not in self.position:
-                return label, xyz
-        for support in self.model.supports:
-            if support.cnode is None:
-                continue
-            for a, b in ((support.node, support.cnode), (support.cnode, support.node)):
-                if a in self.position and b in near and b not in self.position:
-                    return b, self.position[a]
-        if not waiting:
-            return None
-        label = waiting[0]
+    def _start(self, label: str, given: Mapping[str, Vec]) -> Vec:
+        """Choose where a part starts that nothing joins to what is placed."""
+        if label in given:
+            return given[label]
         if self.position:
             text = f"the part that starts at node {label} has no coordinates: it starts at 0 0 0"
             self.findings.assume(text, self._line(label))
-        return label, (0.0, 0.0, 0.0)
+        return 0.0, 0.0, 0.0
 
     def _follow(
         self,
@@ -111,8 +114,8 @@ class Parts:
         edges: list[Edge],
         near: Mapping[str, list[int]],
         closing: list[int],
-    ) -> None:
-        """Place all that hangs on a root; edges between placed labels close loops."""
+    ) -> list[str]:
+        """Place all that hangs on a root, and list it; edges between placed labels close loops."""
         self.position[root] = place
         used: set[int] = set()
         queue = [root]
@@ -129,6 +132,7 @@ class Parts:
                 x, y, z = self.position[label]
                 self.position[other] = (x + step[0], y + step[1], z + step[2])
                 queue.append(other)
+        return queue
 
     def _close(self, edges: list[Edge], closing: list[int]) -> None:
         """Give pipes that end a small way beside their node the length that they need."""

@@ -28,7 +28,7 @@ class Properties:
         t = {SETS[n]: ambient if e.t[n] is None else e.t[n] for n in self.t_sets}
         cold = [SETS[n] for n in self.t_sets if e.t[n] is None]
         if cold:
-            text = f"T{cold[0]} is 0 or a blank on element {e.start}-{e.end} and perhaps others: "
+            text = f"T{' T'.join(cold)} of some elements is 0 or a blank: "
             self.findings.assume(f"{text}taken as the ambient temperature, {ambient:g} C", e.line)
         p = {SETS[n]: e.p[n] or 0.0 for n in self.p_sets}
         return Operation({k: float(v) for k, v in t.items() if v is not None}, p, ambient)
@@ -46,7 +46,7 @@ class Properties:
         """Name of the element's section."""
         wall = e.wall
         if wall <= 0.0 and e.rigid is not None and self._wall:
-            text = f"rigid element {e.start}-{e.end} has no wall: taken from the element before"
+            text = "rigid elements without a wall have that of the element before"
             self.findings.assume(text, e.line)
             wall = self._wall
         if not (e.od > 0.0 and 0.0 < wall <= 0.5 * e.od):

@@ -1,6 +1,7 @@
 """Restraints and hangers of the job as supports of the model."""
 
 import re
+from collections import Counter
 from collections.abc import Iterator
 
 from trunnion.formats.caesar.geometry import Labels, size
@@ -33,8 +34,8 @@ class Restraints:
         self.model = model
         self.findings = findings
         self._seen: set[tuple[object, ...]] = set()
-        self._tags = [r.tag for e in job.elements for r in e.restraints]
-        self._tags += [h.tag for h in job.hangers]
+        self._tags = Counter(r.tag for e in job.elements for r in e.restraints)
+        self._tags.update(h.tag for h in job.hangers)
 
     def element(self, i: int) -> None:
         """Add the supports of one element's restraints."""
@@ -112,7 +113,11 @@ class Restraints:
         if label[-1] in "NMF" or label not in (str(e.start), str(e.end)):
             return None
         node = int(label)
-        if node in self.labels.corners or not size(e.delta):
+        corner = self.labels.corners.get(node)
+        if corner is not None:  # the far end of a bend: others than the leaving pipe may turn
+            alone = len(self.labels.at[node]) == 2
+            return None if alone else "-".join(self.labels.ends(corner.after))
+        if not size(e.delta):
             return None
         others = [self.job.elements[j].delta for j in self.labels.at[node]]
         if all(_parallel(e.delta, other) for other in others if size(other)):
@@ -190,7 +195,7 @@ class Restraints:
     def _name(self, tag: str) -> str | None:
         """Take a tag as the name of a support where it can be one and is the only one."""
         fits = _TAG.fullmatch(tag) is not None and tag.isprintable()
-        return tag if fits and self._tags.count(tag) == 1 else None
+        return tag if fits and self._tags[tag] == 1 else None
 
 
 def _word(code: int) -> str:

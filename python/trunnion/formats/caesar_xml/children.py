@@ -22,7 +22,6 @@ from trunnion.formats.caesar_xml.tags import Numbers, Tag
 
 #: restraint types of the XML -> codes of the neutral file; those of the guide do not apply
 CODES = {0: 1, 1: 2, 2: 3, 3: 4, 4: 5, 5: 6, 6: 7, 7: 8, 10: 9, 16: 13, 17: 14, 18: 15}
-AXES = {1: (1.0, 0.0, 0.0), 2: (0.0, 1.0, 0.0), 3: (0.0, 0.0, 1.0)}
 _RIGIDS = {"UNSPECIFIED": 0, "VALVE": 1, "FLANGE": 2, "FLANGE PAIR": 3, "FLANGED VALVE": 4}
 _MOVES = ("DX", "DY", "DZ", "RX", "RY", "RZ")
 _PUSHES = ("FX", "FY", "FZ", "MX", "MY", "MZ")

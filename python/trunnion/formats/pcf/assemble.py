@@ -11,11 +11,13 @@ from trunnion.formats.pcf.parts import Part
 from trunnion.formats.pcf.properties import Properties, Resolver
 from trunnion.formats.pcf.walk import Walk, walk
 from trunnion.formats.sidetable import G
-from trunnion.model import Bend, Mass, Model, Node, Operation, Pipe
-from trunnion.system.vectors import Vec, cross, size, sub, unit
+from trunnion.model import Bend, Mass, Model, Node, Operation, Pipe, Reducer
+from trunnion.system.vectors import Vec, cross, dot, scale, size, sub, unit
 
 COLLINEAR = 1e-3  # as system.tangents: pipes that turn by less count as one line [rad]
 DIGITS = 12  # of lengths [m]: a bend must still fit its tangents to 1e-9
+STEEPEST = 0.5  # cosine between the axis of an eccentric reducer and its run, as system.checks
+_NAMED = ("FLANGE", "VALVE")
 _BODIES = ("rigid", "angle", "ways", "closed")
 
 
@@ -129,25 +131,32 @@ def _add_pipes(
     for start in way.starts:
         model.nodes.append(Node(way.labels[start], net.xyz[start]))
     weights: dict[int, float] = {}
+    near: dict[int, list[Run]] = {}
+    for run, _ in way.runs:
+        near.setdefault(run.a, []).append(run)
+        near.setdefault(run.b, []).append(run)
     for run, what in way.runs:
         part = run.part
         body = run.kind == "rigid" and part.shape in (*_BODIES, "gasket", "fitting")
         if body and part.line not in weights:
             weights[part.line] = _body_weight(part, resolver, findings)
         stiff = run.kind == "inside" or (body and not _weighs_as_pipe(part, resolver))
+        section, reducer = what.section, None
+        if run.kind == "reducer":
+            section, reducer = _taper(net, run, near, resolver, findings)
         pipe = Pipe(
             name(run.a),
             name(run.b),
             _delta(net, run),
-            what.section,
+            section,
             what.material,
             what.operation,
             rigid=stiff,
+            body=next((b for b in _NAMED if stiff and body and part.keyword.startswith(b)), ""),
+            reducer=reducer,
             weight=round(weights.get(part.line, 0.0) * run.share, 9) if stiff and body else 0.0,
             place=findings.place(part.line),
         )
-        if run.kind == "reducer":
-            _note_reducer(run, resolver, findings)
         model.pipes.append(pipe)
         findings.note(pipe, _says(part))
 
@@ -158,14 +167,24 @@ def _delta(net: Network, run: Run) -> Vec:
     return round(x, DIGITS) + 0.0, round(y, DIGITS) + 0.0, round(z, DIGITS) + 0.0
 
 
-def _note_reducer(run: Run, resolver: Resolver, findings: Findings) -> None:
-    """Say what a reducer became."""
+def _taper(
+    net: Network, run: Run, near: Mapping[int, list[Run]], resolver: Resolver, findings: Findings
+) -> tuple[str, Reducer | None]:
+    """Section at the start of a reducer, and what makes it one; none if both bores are equal."""
     one, other = (resolver.properties(run.part, bore).section for bore in run.ends)
     if one == other:
         findings.assume(f"{run.part.name}: both bores are equal; taken as pipe", run.part.line)
-        return
-    text = f"reducer; taken as a pipe of section {one}"
-    findings.leave_out(run.part.line, run.part.name, text)
+        return one, None
+    axis = None
+    along = unit(net.delta(run))
+    for pipe in (p for node in (run.a, run.b) for p in near.get(node, ()) if p.part != run.part):
+        way = unit(net.delta(pipe))
+        cosine = dot(way, along)
+        if STEEPEST < abs(cosine) < 1.0 - 1e-9:
+            x, y, z = scale(1.0 if cosine > 0.0 else -1.0, way)
+            axis = (round(x, DIGITS) + 0.0, round(y, DIGITS) + 0.0, round(z, DIGITS) + 0.0)
+            break
+    return one, Reducer(other, axis if run.part.keyword == "REDUCER-ECCENTRIC" else None)
 
 
 def _weighs_as_pipe(part: Part, resolver: Resolver) -> bool:

@@ -118,10 +118,15 @@ def attach_supports(
 
 
 def _off_bends(net: Network, hit: Hit, point: Vec, attached: Attached) -> Hit:
-    """Move a hit on the tangents of a bend to the nearest of its near, middle and far points."""
+    """Move a hit on the tangents of a bend to the nearest of its near, middle and far points.
+
+    One on a reducer moves to its nearer end.
+    """
     centre = hit.node if hit.node in net.bends else -1
     if hit.run >= 0:
         run = net.runs[hit.run]
+        if run.kind == "reducer":  # whole it stays
+            return Hit(run.a if hit.along < 0.5 else run.b, -1, 0.0, hit.distance)
         centre = next((n for n in (run.a, run.b) if n in net.bends), -1)
     if centre < 0:
         return hit

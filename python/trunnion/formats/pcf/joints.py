@@ -40,7 +40,6 @@ def join(points: Sequence[Vec], owners: Sequence[int], tolerance: float) -> Join
     ------
     CrowdedError : too many different points within the tolerance.
     """
-    first: dict[tuple[Vec, int], int] = {}  # the same point twice in a component stays two joints
     group: list[int] = []
     at: dict[Vec, int] = {}
     seen: set[tuple[int, int]] = set()
@@ -48,7 +47,7 @@ def join(points: Sequence[Vec], owners: Sequence[int], tolerance: float) -> Join
     places: list[Vec] = []
     for port, (xyz, owner) in enumerate(zip(points, owners, strict=True)):
         known = at.get(xyz)
-        if known is None or (known, owner) in seen:
+        if known is None or (known, owner) in seen:  # twice in a component: two joints
             known = len(members)
             members.append([])
             places.append(xyz)
@@ -56,7 +55,6 @@ def join(points: Sequence[Vec], owners: Sequence[int], tolerance: float) -> Join
         seen.add((known, owner))
         members[known].append(port)
         group.append(known)
-        first.setdefault((xyz, owner), port)
     root = list(range(len(members)))
 
     def find(x: int) -> int:

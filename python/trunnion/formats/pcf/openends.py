@@ -7,7 +7,7 @@ import numpy as np
 from trunnion.formats.findings import Findings
 from trunnion.formats.pcf.network import Hit, Network, Places, Run, overlaps, split
 from trunnion.formats.pcf.parts import Part
-from trunnion.system.vectors import dot, size, sub, unit
+from trunnion.system.vectors import dot, size, unit
 
 GAP = 0.1  # [m]; or two bores
 MOST_OPEN = 0.5
@@ -109,13 +109,3 @@ def refuse_loose(net: Network, ports: int, findings: Findings) -> None:
         text = f"{loose} of {ports} ends have no mate: this is a list of parts, not a line"
         first = min(part.line for part in net.open_ends.values())
         findings.leave_out(first, "file", text)
-
-
-def reach_of(run_part: Part, outside: Outside, slack: float) -> float:
-    """How far from the axis something may stand on a pipe [m]."""
-    return 0.5 * outside(run_part) + slack
-
-
-def distance(net: Network, a: int, b: int) -> float:
-    """Distance of two nodes [m]."""
-    return size(sub(net.xyz[a], net.xyz[b]))

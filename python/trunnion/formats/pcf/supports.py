@@ -64,8 +64,8 @@ def _add_at(
         source = [p for p, m in records if m.words == card or m.words in plain_words]
         part = source[0] if source else records[0][0]
         if card == "SPRING":
-            _designed(line, label, part, findings)
-            continue
+            text = "springs without rate and load are selected by the program (HANGER DESIGN)"
+            findings.assume(text, part.line)
         before = len(line.model.supports)
         try:
             add_words(
@@ -87,12 +87,6 @@ def _name(part: Part) -> str | None:
     said = part.get("SUPPORT_NAME") or part.get("NAME") or part.get("COMPONENT-IDENTIFIER") or ""
     clean = "".join(c if c.isalnum() or c in "-_./+" else "-" for c in said)[:40].strip("-")
     return clean or None
-
-
-def _designed(line: Line, label: str, part: Part, findings: Findings) -> None:
-    """Leave out a spring that nothing gives a rate and a load."""
-    text = "spring support without rate and load; left out (SPRING LOAD= RATE= in the side table)"
-    findings.leave_out(part.line, f"node {label}", text)
 
 
 def add_anchor(line: Line, node: int, why: str, findings: Findings) -> None:

@@ -113,7 +113,8 @@ def add_words(
 ) -> int:
     """Add the supports that the words of a side table mean; give their number.
 
-    ANCHOR and words of TRADE stand for themselves, all else is the rest of a SUPPORT card:
+    SPRING without LOAD= is a hanger that the program selects.  ANCHOR and words of TRADE stand
+    for themselves, all else is the rest of a SUPPORT card:
     "+Z GUIDE GAP=3mm MU=0.3".
 
     Raises
@@ -131,12 +132,10 @@ def add_words(
         return 1
     if first == "SPRING":
         keys |= dict(_pair(w, place) for w in words[1:])
-        if "LOAD" not in keys:
-            text = "a spring needs LOAD= and RATE= (side table: SPRING LOAD=5kN RATE=50N/mm)"
-            raise DeckError([Problem(place, f"SPRING {node}: {text}")])
-        add(model, "HANGER", (node,), _in_si(keys), place)
+        args = (node,) if "LOAD" in keys else (node, "DESIGN")
+        add(model, "HANGER", args, _in_si(keys), place)
         return 1
-    args: list[object] = [node]
+    card: list[object] = [node]
     common: dict[str, str] = dict(keys)
     bound: list[tuple[str, dict[str, str]]] = []
     for word in words:
@@ -148,8 +147,8 @@ def add_words(
     for direction, own in bound:
         if along is not None and direction in ("GUIDE", "LIMIT"):
             own.setdefault("ALONG", along)
-        args.append((direction, _in_si(own)))
-    add(model, "SUPPORT", tuple(args), _in_si(common), place)
+        card.append((direction, _in_si(own)))
+    add(model, "SUPPORT", tuple(card), _in_si(common), place)
     return 1
 
 

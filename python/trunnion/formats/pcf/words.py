@@ -73,11 +73,6 @@ PIPELINE_WORDS = (
 )
 
 
-def shape_of(keyword: str) -> str | None:
-    """Shape of a component keyword; None if it is not known."""
-    return SHAPES.get(keyword)
-
-
 def is_message(keyword: str) -> bool:
     """Tell whether a block is a note on the drawing, never a component."""
     return keyword.startswith("MESSAGE-")
