@@ -14,6 +14,7 @@ from trunnion import kernels
 from trunnion.arrays import B1, F8, I4, SPRING, Contacts, Sliders, System
 from trunnion.forms import forms
 
+APART = 1e5  # ratio of bending stiffnesses EI/L³ at a node at which a chain ends
 LONGEST = 64  # elements of a chain: its forces are carried from end to end, so round-off grows
 
 
@@ -58,6 +59,7 @@ def find_chains(system: System) -> Chains:
     for nodes in (part for item in held for part in (item.node, item.cnode)):
         keep[nodes[nodes >= 0]] = 1
     ends = np.ascontiguousarray(system.ends, np.int32)
+    keep[_uneven(system, ends, joins)] = 1
     count, first, element, flip, far = kernels.link_chains(
         ends, joins.astype(np.int32), LONGEST, keep
     )
@@ -71,6 +73,18 @@ def find_chains(system: System) -> Chains:
     joined = np.ascontiguousarray(np.column_stack((place[base], place[far[last]])))
     f = _flexibilities(system, joins)
     return Chains(kept, place, first, element, flip, far, base, joined, f)
+
+
+def _uneven(system: System, ends: I4, joins: B1) -> B1:
+    """Nodes where a soft element meets a stiff one: the sum would keep few digits of that."""
+    which = np.flatnonzero(joins)
+    stiff = np.log(system.rigidity[which, 2]) - 3.0 * np.log(system.length[which])
+    most, least = np.full(len(system.labels), -np.inf), np.full(len(system.labels), np.inf)
+    for side in (0, 1):
+        np.maximum.at(most, ends[which, side], stiff)
+        np.minimum.at(least, ends[which, side], stiff)
+    uneven: B1 = most - least > np.log(APART)
+    return uneven
 
 
 def _flexibilities(s: System, joins: B1) -> F8:
