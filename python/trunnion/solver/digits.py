@@ -43,9 +43,9 @@ def digits_left(
 
     Every member's end forces are changed by up to one part, with scattered signs, as a change of
     its stiffness by one part would do (rigid motion makes no force, so none is made of it), and
-    so are those that would hold back its free deformation, and the loads at nodes.  What this moves, of the largest
-    displacement, is the number of parts that an error of one part in the input costs: a
-    structured condition number in the sense of Skeel (1979).
+    so are those that would hold back its free deformation, and the loads at nodes.  What this
+    moves, of the largest displacement, is the number of parts that an error of one part in the
+    input costs: a structured condition number in the sense of Skeel (1979).
 
     Parameters
     ----------
