@@ -98,7 +98,7 @@ def _large(racks: list[Row], million: list[Row]) -> Iterator[tuple[str, str, str
     peak = find(racks, case="fric1", n=100_000, program="newton").get("peak_mb")
     shown = "" if peak is None else f"{peak:.0f} MB"
     yield "rack_100000 `fric1`, memory", f"{MEMORY:.0f} MB", shown, _verdict(peak, MEMORY)
-    row = find(million, program="newton")
+    row = find(million, program="newton", n=1_000_000)
     peak, name = row.get("peak_mb"), "rack_1000000 `fric1`"
     shown = "" if peak is None else f"{peak:.0f} MB, {row['verdict']}"
     sound = row.get("verdict") in (None, "right")

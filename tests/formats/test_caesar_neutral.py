@@ -508,12 +508,17 @@ def test_hangers_to_be_designed_and_several_at_one_place(version):
 def test_offsets_miters_strains_and_fitting_walls_are_named():
     c = job()
     off = {"OFFSETS": (0.0, 100.0, 0.0, 0.0, 0.0, 0.0)}
-    c.add(10, 20, dx=1000.0, RESTRANT=[slot(10, ANC)], **off)
-    c.add(20, 30, dx=1000.0, BEND={"radius": 381.0, "miters": 2})
+    c.add(10, 20, dx=1000.0, RESTRANT=[slot(10, ANC)])
+    c.add(20, 30, dx=1000.0, BEND={"radius": 381.0, "miters": 2}, **off)
     c.add(30, 40, dz=2000.0, t1=0.002, BEND={"radius": 381.0, "fitting": 12.0})
     c.add(40, 50, dx=1000.0)
     found = " ".join(problems_of(c))
-    for text in ("offsets of its ends", "mitre bend of 2 cuts", "wall of 12 mm", "expansion"):
+    for text in (
+        "offsets of an element at a bend",
+        "mitre bend of 2 cuts",
+        "wall of 12 mm",
+        "expansion",
+    ):
         assert text in found
     assert len(imported(c, permissive=True).left_out) == 4
 
@@ -579,3 +584,10 @@ def test_a_pointer_beyond_its_array_and_cut_off_lines_are_named():
     source = source_of("\n".join(lines).encode(), "line.cii")
     with pytest.raises(DeckError, match="points to record 7 of RESTRANT, which has 1"):
         read(source, Findings(source))
+
+
+def test_offsets_lead_from_the_node_to_the_pipe():
+    c = job()
+    c.add(10, 20, dx=1000.0, RESTRANT=[slot(10, ANC)])
+    c.add(20, 30, dz=1000.0, OFFSETS=(0.0, 0.0, 136.5, 0.0, 0.0, 0.0))
+    assert [p.offsets for p in model_of(c).pipes] == [(None, None), ((0.0, 0.0, 0.1365), None)]

@@ -5,7 +5,7 @@ part; the true error, which has its own signs, lies at most 2.5 decades above it
 """
 
 import pytest
-from exact import Judge, reported
+from ballarithmetic import Judge, reported
 from plainscenes import Pipe, Scene, Support, model
 
 import trunnion

@@ -44,7 +44,11 @@ def test_what_was_chosen_is_found_from_its_own_capacities(found):
 
 
 def test_the_estimate_of_lost_digits_brackets_the_true_error(found):
-    """Within three digits (it is one sample of the signs), on scenes known to fifty."""
+    """On scenes known to fifty digits: within one in 97 of 100, never more than four too good.
+
+    It is one sample of an error in the last bits, not a bound.
+    """
+    short = []
     for seed in (o.seed for o in found if o.word == GIVEN_BACK):
         scene = manufactured(seed)
         case = trunnion.solve(scene.model)["A"]
@@ -54,8 +58,9 @@ def test_the_estimate_of_lost_digits_brackets_the_true_error(found):
             max(np.abs(u[:, :3]).max(), reach * np.abs(u[:, 3:]).max())
             for u in (case.state.u + case.state.u_low - chosen, chosen)
         )
-        left, where = case.digits
-        assert off <= 10.0 ** (3.0 - left) * size, (seed, left, where)
+        short.append(case.digits[0] + np.log10(max(off / size, 1e-20)))
+    assert max(short) <= 4.0
+    assert np.quantile(short, 0.97) <= 1.0
 
 
 @pytest.mark.parametrize("block", range(4))

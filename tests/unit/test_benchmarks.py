@@ -235,6 +235,16 @@ def test_targets_are_computed():
     assert verdicts["every rack: distance to the reference"] == "missed"
 
 
+def test_the_million_is_judged_by_its_own_memory():
+    empty = {name: [] for name in tables.FILES}
+    own = {"program": "newton", "verdict": "right", "floors": 50.0}
+    million = [{**own, "n": 1000, "peak_mb": 40.0}, {**own, "n": 1_000_000, "peak_mb": 2e4}]
+    found = targets.targets({**empty, "million": million})
+    verdicts = {row["target"]: row["verdict"] for row in found}
+    assert verdicts["rack_1000000 `fric1`, certified, memory"] == "missed, 1.22 times"
+    assert verdicts["rack_1000000 `fric1`, floors over those of rack_1000"] == "reached"
+
+
 def test_tables_survive_the_disk(tmp_path):
     some = [{"a": 1, "b": 0.5}, {"a": 2, "c": "x, | y"}]
     store.save(some, tmp_path / "t.csv")

@@ -164,6 +164,7 @@ class Job:
     history: History
     result: CaseResult
     solved: Solved | None = None
+    blind: bool = False  # the last attempt could not see what was left to correct
 
     @property
     def unbounded(self) -> bool:
@@ -174,6 +175,8 @@ class Job:
         """The factor may be to blame that there is no answer."""
         if self.solved is None or self.unbounded:
             return False
+        if self.blind:
+            return True
         return is_lossy(self.structure, self.solved.response, self.forcing)
 
     def explain(self) -> str:
@@ -206,8 +209,9 @@ def _attempt(job: Job, prepared: tuple[Point, Solved] | None = None) -> Origin |
         correction_u=reported.correction_u,
         correction_r=reported.correction_r,
     )
-    if reported.broken or not result.certificate.passed:
-        result.cause = reported.broken or refusal(result.certificate)
+    job.blind = reported.blind
+    if reported.broken or not result.certificate.passed or reported.blind:
+        result.cause = reported.broken or refusal(result.certificate, blind=reported.blind)
         return None
     result.cause = None
     result.state, result.converged = reported.state, True
@@ -220,8 +224,10 @@ def _attempt(job: Job, prepared: tuple[Point, Solved] | None = None) -> Origin |
     return Origin(forcing, whole, datum, job.question.loads, job.start.lock)
 
 
-def refusal(certificate: Certificate) -> str:
-    """Why a certificate did not pass."""
+def refusal(certificate: Certificate, *, blind: bool = False) -> str:
+    """Why a certificate did not pass, or may not be believed."""
+    if certificate.passed and blind:
+        return "the stiffness is too ill-conditioned: no correction of the answer can be trusted"
     return f"certificate: {certificate.where} is {certificate.worst:.3g}, above 1e-9"
 
 

@@ -4,7 +4,7 @@ from math import log10
 
 import numpy as np
 
-from trunnion.arrays import F8
+from trunnion.arrays import F8, SLIP
 from trunnion.solver.coupled import coupled_step
 from trunnion.solver.newton import tangent_factor
 from trunnion.solver.quantities import Forcing, Point, Response, Sliding
@@ -12,23 +12,26 @@ from trunnion.solver.structure import Structure
 
 FREEDOMS = ("X", "Y", "Z", "RX", "RY", "RZ")
 DIGITS = 15.9  # of a double
+BLIND = 1e-4  # the same, above which refinement cannot see what is left
 POOR = 1e-6  # correction of a solution by its own residual: fewer than six digits a solve
 
 
 def is_lossy(structure: Structure, response: Response, forcing: Forcing) -> bool:
-    """Tell whether the factor of these tangents solves to fewer than six digits.
-
-    The load's first solution is corrected by its own residual, which is formed from deformations;
-    what is corrected is what the factor got wrong (Wilkinson 1963, iterative refinement).
-    """
+    """Tell whether the factor of these tangents solves to fewer than six digits."""
     tangent_factor(structure, response)
     load = structure.residual(Point.zero(structure.n_node), structure.frictionless(), forcing)[0]
     load[structure.absent] = 0.0
-    p = structure.solve(load)
+    return not _loss(structure, response, load, structure.solve(load)) <= POOR
+
+
+def _loss(structure: Structure, response: Response, load: F8, p: F8) -> float:
+    """Part of a solution p that its own residual, formed from deformations, takes back.
+
+    What is corrected is what the factor got wrong (Wilkinson 1963, iterative refinement).
+    """
     back = structure.product(response.tangent, response.slider_tangent, p)
     correction = structure.solve(load - back)
-    size = _size(structure, p)
-    return not _size(structure, correction) <= POOR * max(size, 1e-300)
+    return _size(structure, correction) / max(_size(structure, p), 1e-300)
 
 
 def digits_left(
@@ -38,14 +41,14 @@ def digits_left(
     forcing: Forcing,
     response: Response,
     correction: float,
-) -> tuple[float, str]:
+) -> tuple[float, str, bool]:
     """Digits of the displacements that do not hang on the last bit of the input.
 
     Every member's end forces are changed by up to one part, with scattered signs, as a change of
     its stiffness by one part would do (rigid motion makes no force, so none is made of it), and
-    so are those that would hold back its free deformation.  What this moves, of the largest
-    displacement, is the number of parts that an error of one part in the input costs: a
-    structured condition number in the sense of Skeel (1979).
+    so are those that would hold back its free deformation, and the loads at nodes.  What this
+    moves, of the largest displacement, is the number of parts that an error of one part in the
+    input costs: a structured condition number in the sense of Skeel (1979).
 
     Parameters
     ----------
@@ -53,23 +56,28 @@ def digits_left(
 
     Returns
     -------
-    Digits left of the 16 that doubles have, and the freedom that loses most ("node 40 RX").
+    Digits left of the 16 that doubles have, the freedom that loses most ("node 40 RX"), and
+    whether the factor solves so badly that no correction found with it can be trusted.
     """
-    load = np.zeros_like(point.u)
+    load = _scattered(point.u.size, 2).reshape(-1, 6) * forcing.nodal
     for start, at in enumerate((point, Point.zero(structure.n_node))):
         end = structure.residual(at, law, forcing)[1]
         signs = _scattered(len(end), start)
         for side in (0, 1):
             np.add.at(load, structure.members.ends[:, side], signs[:, None] * end[:, side])
     load[structure.absent] = 0.0
-    moved = np.abs(coupled_step(structure, response, law, load))
+    p = structure.solve(load)
+    blind = not _loss(structure, response, load, p) <= BLIND
+    if (response.mode == SLIP).any():
+        p = coupled_step(structure, response, law, load)
+    moved = np.abs(p)
     moved[:, 3:] *= structure.reach
     node, freedom = np.unravel_index(int(moved.argmax()), moved.shape)
     name = f"node {structure.system.labels[structure.kept[node]]} {FREEDOMS[freedom]}"
     size = max(_size(structure, point.u), 1e-300)
     lost = max(log10(max(float(moved[node, freedom]) / size, 1.0)), 0.0)
     reached = -log10(max(correction, 1e-300))
-    return min(DIGITS - lost, reached), name
+    return min(DIGITS - lost, reached), name, blind
 
 
 def _scattered(n: int, start: int) -> F8:

@@ -53,8 +53,9 @@ class Pipes:
     def _refuse(self, e: Element, name: str) -> None:
         """Tell what of an element has no counterpart."""
         leave = self.findings.leave_out
-        if e.offsets is not None and (any(e.offsets.start) or any(e.offsets.end)):
-            leave(e.offsets.line, name, "offsets of its ends; taken without")
+        nodes = {e.start, e.end} & self.labels.corners.keys()
+        if e.offsets is not None and nodes and any((*e.offsets.start, *e.offsets.end)):
+            leave(e.offsets.line, name, "offsets of an element at a bend; taken without")
         strains = [n + 1 for n, x in enumerate(e.strain) if x is not None]
         if strains:
             text = f"T{strains[0]} is an expansion (length by length), not a temperature"
@@ -84,6 +85,9 @@ class Pipes:
         start, end = self.labels.ends(i)
         place = self.findings.place(e.line)
         made = Pipe(start, end, e.delta, section, material, operation, place=place)
+        if e.offsets is not None and not {e.start, e.end} & self.labels.corners.keys():
+            arms = e.offsets.start, e.offsets.end
+            made = replace(made, offsets=tuple(arm if any(arm) else None for arm in arms))
         corner = self.labels.corners.get(e.start)
         if e.rigid is not None and corner is not None and corner.after == i:
             part = corner.tangent / size(e.delta)
