@@ -132,7 +132,7 @@ def test_a_mechanism_is_refused_as_often_as_it_is_solved():
     loose = LINEAR.replace("ANCHOR 10", "SUPPORT 10 X Y")
     session = trunnion.Session()
     for _ in range(2):
-        with pytest.raises(ModelError, match="moves freely|no restraint holds it"):
+        with pytest.raises(ModelError, match="no restraint holds it"):
             session.solve(read(loose))
 
 

@@ -145,7 +145,7 @@ def test_elements_vary_on_one_analysis(model, name):
 
 
 def test_a_variant_may_end_chains_at_other_nodes():
-    """A stub of 50 mm between long pipes ends chains (`solver.chains.APART`); one of 5 m does not."""
+    """A stub of 50 mm between long pipes ends chains (`solver.chains.APART`), one of 5 m none."""
     deck = """\
 MATERIAL A E=203e9 NU=0.3 ALPHA=12e-6 DENSITY=7850
 SECTION P OD=0.2191 WALL=0.00818
