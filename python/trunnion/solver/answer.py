@@ -166,14 +166,9 @@ class Job:
     solved: Solved | None = None
     blind: bool = False  # the last attempt could not see what was left to correct
 
-    @property
-    def unbounded(self) -> bool:
-        """The pipe moves away: more precision or smaller steps cannot help."""
-        return self.solved is not None and "without bound" in (self.solved.cause or "")
-
     def doubtful(self) -> bool:
         """The factor may be to blame that there is no answer."""
-        if self.solved is None or self.unbounded:
+        if self.solved is None:
             return False
         if self.blind:
             return True
