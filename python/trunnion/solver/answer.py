@@ -81,7 +81,7 @@ def answer(
 def at_rest(structure: Structure) -> Origin:
     """The undeformed, unloaded start."""
     datum = np.zeros((len(structure.sliders.mu), 3))
-    return Origin(structure.still, Point.zero(structure.n_node), datum)
+    return Origin(structure.still, Point.zero(len(structure.system.labels)), datum)
 
 
 def forcing_of(structure: Structure, question: Question) -> Forcing:
@@ -109,10 +109,10 @@ def refuse_mechanisms(structure: Structure) -> None:
     poor = held is not None and not (held[2] == 0.0 and structure.rcond > TINY_PIVOT)
     if structure.checked or not (structure.shifted or poor):
         return
-    structure.checked = True
     motions = structural_motions(structure)
     if motions and not holds_extended(structure):
         raise ModelError([Problem("structure", motion.text) for motion in motions])
+    structure.checked = True  # a session may ask a refused structure again
 
 
 def holds_extended(structure: Structure) -> bool:
@@ -166,14 +166,9 @@ class Job:
     solved: Solved | None = None
     blind: bool = False  # the last attempt could not see what was left to correct
 
-    @property
-    def unbounded(self) -> bool:
-        """The pipe moves away: more precision or smaller steps cannot help."""
-        return self.solved is not None and "without bound" in (self.solved.cause or "")
-
     def doubtful(self) -> bool:
         """The factor may be to blame that there is no answer."""
-        if self.solved is None or self.unbounded:
+        if self.solved is None:
             return False
         if self.blind:
             return True
@@ -220,7 +215,8 @@ def _attempt(job: Job, prepared: tuple[Point, Solved] | None = None) -> Origin |
     result.digits = reported.digits
     result.warnings += tuple(job.history.notes) + _remarks(structure, reported)
     datum = _all_sliders(structure, reported.state.datum_end)
-    return Origin(forcing, point, datum, job.question.loads, job.start.lock)
+    whole = Point(reported.state.u, reported.state.u_low)
+    return Origin(forcing, whole, datum, job.question.loads, job.start.lock)
 
 
 def refusal(certificate: Certificate, *, blind: bool = False) -> str:
