@@ -1,7 +1,6 @@
 """What a stored result was made of, so that the run can be repeated: nothing of the machine."""
 
-from importlib.metadata import version
-
+from trunnion._version import VERSION
 from trunnion.model import Model
 from trunnion.report.encode import dump
 
@@ -15,7 +14,7 @@ def manifest_entry(model: Model) -> str:
         {
             "deck": model.file.name,
             "sha256": model.file.sha256,
-            "version": version("trunnion"),
+            "version": VERSION,
             "settings": {
                 "iteration": settings.iteration,
                 "events": settings.events,
