@@ -6,7 +6,7 @@ import numpy as np
 
 from trunnion.arrays import F8, SLIP
 from trunnion.solver.coupled import coupled_step
-from trunnion.solver.newton import tangent_factor
+from trunnion.solver.newton import TINY_PIVOT, tangent_factor
 from trunnion.solver.quantities import Forcing, Point, Response, Sliding
 from trunnion.solver.structure import Structure
 
@@ -21,17 +21,35 @@ def is_lossy(structure: Structure, response: Response, forcing: Forcing) -> bool
     tangent_factor(structure, response)
     load = structure.residual(Point.zero(structure.n_node), structure.frictionless(), forcing)[0]
     load[structure.absent] = 0.0
-    return not _loss(structure, response, load, structure.solve(load)) <= POOR
+    return not _loss(structure, load, structure.solve(load)) <= POOR
 
 
-def _loss(structure: Structure, response: Response, load: F8, p: F8) -> float:
+def _loss(structure: Structure, load: F8, p: F8) -> float:
     """Part of a solution p that its own residual, formed from deformations, takes back.
 
     What is corrected is what the factor got wrong (Wilkinson 1963, iterative refinement).
     """
-    back = structure.product(response.tangent, response.slider_tangent, p)
-    correction = structure.solve(load - back)
+    held = structure.held
+    assert held is not None
+    if held[2] > 0.0:  # it solves another matrix
+        return 0.0 if _is_singular(structure) else np.inf
+    correction = structure.solve(load - structure.product(held[0], held[1], p))
     return _size(structure, correction) / max(_size(structure, p), 1e-300)
+
+
+def _is_singular(structure: Structure) -> bool:
+    """Tell whether tangents that needed a shift have motions without stiffness in 32 digits, too.
+
+    The factor is left as it was.
+    """
+    held = structure.held
+    assert held is not None
+    if structure.extended is not None or not structure.extend(True):
+        return True
+    sound = structure.factorise(held[0], held[1]) and structure.rcond > TINY_PIVOT
+    structure.extend(False)
+    structure.factorise(*held)
+    return not sound
 
 
 def digits_left(
@@ -67,7 +85,7 @@ def digits_left(
             np.add.at(load, structure.members.ends[:, side], signs[:, None] * end[:, side])
     load[structure.absent] = 0.0
     p = structure.solve(load)
-    blind = not _loss(structure, response, load, p) <= BLIND
+    blind = not _loss(structure, load, p) <= BLIND
     if (response.mode == SLIP).any():
         p = coupled_step(structure, response, law, load)
     moved = np.abs(p)
