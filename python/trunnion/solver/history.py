@@ -32,6 +32,8 @@ class History:
         switched = sliders.card[(before.mode != after.mode)[:m]].tolist()
         changed = sorted({*turned, *switched})
         self.ledger.add(iterations=1)
+        if len(self.records) == 0:
+            self._keep(before)
         self._keep(after)
         self.records.append(
             {

@@ -101,9 +101,10 @@ const DATA = JSON.parse(document.getElementById("data").textContent);
       }
     }
     const mesh = { type: "mesh3d", x, y, z, ...faces, hoverinfo: "skip", flatshading: false,
-      lighting: { ambient: 0.62, diffuse: 0.55, specular: 0.12, roughness: 0.6, fresnel: 0.05 },
+      lighting: { ambient: 0.82, diffuse: 0.4, specular: 0.08, roughness: 0.6, fresnel: 0.05 },
       lightposition: { x: 1e5 * (up[0] + 0.6), y: 1e5 * (up[1] + 0.4), z: 1e5 * (up[2] + 0.8) } };
-    if (plain) return { ...mesh, color: "#b9c2ce" };
+    if (plain) return { ...mesh, intensity: new Float32Array(total), cmin: 0, cmax: 1,
+      colorscale: [[0, "#c3cbd6"], [1, "#c3cbd6"]], showscale: false };
     const signed = bottom < -1e-9 * top - 1e-300, most = Math.max(top, -bottom) || 1;
     return { ...mesh, intensity: colour, cmin: signed ? -most : 0, cmax: most,
       colorscale: signed ? DIVERGING : SEQUENTIAL, showscale: true,
@@ -113,7 +114,11 @@ const DATA = JSON.parse(document.getElementById("data").textContent);
   }
 
   /* small solids of supports in one mesh */
-  const glyph = Math.max(2.2 * thick, size / 75);
+  /* supports, arrows and movements stay small against spans where there are many of these */
+  const spans = scene.spans.slice().sort((a, b) => a - b);
+  const bay = spans.length ? spans[Math.floor(spans.length / 2)] || size : size;
+  const glyph = Math.max(2.2 * thick, Math.min(size / 75, 0.25 * bay));
+  const reach = Math.min(0.1 * size, 1.5 * bay);
   const solids = () => ({ x: [], y: [], z: [], i: [], j: [], k: [], facecolor: [] });
   function cone(m, tip, axis, length, wide, colour) {
     const side = aside(axis), other = cross(axis, side), base = m.x.length, sides = 10;
@@ -211,23 +216,23 @@ const DATA = JSON.parse(document.getElementById("data").textContent);
       if (!c || !options.arrows || most === 0) return;
       const f = [c.load[6 * i], c.load[6 * i + 1], c.load[6 * i + 2]], amount = norm(f);
       if (amount < 1e-3 * most) return;
-      const axis = scaled(f, 1 / amount), length = size * (0.015 + 0.085 * amount / most);
+      const axis = scaled(f, 1 / amount), length = reach * (0.15 + 0.85 * amount / most);
       const start = add(where, axis, card.radius), tip = add(start, axis, length);
-      const head = Math.min(0.4 * length, size * 0.018);
+      const head = Math.min(0.4 * length, 0.18 * reach);
       const neck = add(tip, axis, -head);
       shaft.x.push(start[0], neck[0], null); shaft.y.push(start[1], neck[1], null);
       shaft.z.push(start[2], neck[2], null);
       cone(arrows, tip, axis, head, 0.35 * head, "#c2185b");
     });
     const solid = { type: "mesh3d", hoverinfo: "skip", flatshading: true,
-      lighting: { ambient: 0.7, diffuse: 0.45, specular: 0.05 } };
+      lighting: { ambient: 0.88, diffuse: 0.3, specular: 0.02 } };
     if (m.i.length) traces.push({ ...solid, ...m });
     if (line.x.length) traces.push({ type: "scatter3d", mode: "lines", ...line,
       hoverinfo: "skip", showlegend: false, line: { color: STATE.none, width: 3 } });
     if (arrows.i.length) traces.push({ ...solid, ...arrows }, { type: "scatter3d", mode: "lines",
       ...shaft, hoverinfo: "skip", showlegend: false, line: { color: "#c2185b", width: 4 } });
     if (marks.x.length) traces.push({ type: "scatter3d", mode: "markers", ...marks,
-      hoverinfo: "text", showlegend: false, marker: { size: 7, color: "#44546a", opacity: 0.02 } });
+      hoverinfo: "text", showlegend: false, marker: { size: 12, color: "rgba(68,84,106,0.01)", line: { width: 0 } } });
     return traces;
   }
   const place2 = (u, i, s) => [s * u[6 * i], s * u[6 * i + 1], s * u[6 * i + 2]];
@@ -250,7 +255,7 @@ const DATA = JSON.parse(document.getElementById("data").textContent);
         unit.movement.unit + "<br>turns " + r + " " + unit.rotation.unit);
     }
     const found = [{ type: "scatter3d", mode: "markers", x, y, z, text, hoverinfo: "text",
-      showlegend: false, marker: { size: n_node > 800 ? 2 : 3.5, color: "#1b2430", opacity: 0.55 } }];
+      showlegend: false, marker: { size: 2, color: "#1b2430", opacity: 0.5 } }];
     if (labelled) {
       const lift = 0.6 * glyph + thick;
       found.push({ type: "scatter3d", mode: "text", x: x.map((v) => v + lift * up[0]),
@@ -299,23 +304,43 @@ const DATA = JSON.parse(document.getElementById("data").textContent);
     for (let p = 0; p < n; p++) most = Math.max(most, value(c, "move", p));
     const slider = Number(get("scale").value);
     if (slider === 0 || most === 0) return 0;
-    return nice(0.04 * size / most * 10 ** ((slider - 50) / 35));
+    return nice(Math.min(0.04 * size, 0.6 * bay) / most * 10 ** ((slider - 50) / 60));
   }
-  const flat = up[1] > 0.5 ? [1, 0.85, 1.35] : [1, -1.35, 0.85];
-  const span = add(high, low, -1).map((v) => Math.max(v, 0.12 * size));
-  const axis = { visible: false, showspikes: false };
+  /* seen from above and aside, the longer horizontal side across */
+  const high_axis = up[1] > 0.5 ? 1 : 2, level = [0, 3 - high_axis];
+  const lengths = add(high, low, -1), across = lengths[level[0]] >= lengths[level[1]] ? 0 : 1;
+  const eye = [0, 0, 0];
+  eye[high_axis] = 0.85;
+  eye[level[across]] = high_axis === 2 && across === 0 ? -0.75 : 0.75;
+  eye[level[1 - across]] = high_axis === 2 && across === 0 ? -1.35 : 1.35;
+  const room = 0.3 * size, ranges = low.map((v, k) => [v - room, high[k] + room]);
+  const ratio = ranges.map((r) => fit() * (r[1] - r[0]) / size);
+  /* plotly shows a cube of 1 so that it takes 1/2.15 of the height; the model shall fill 3/4 */
+  function fit() {
+    const toward = scaled(eye, 1 / norm(eye)), side = cross(up, toward);
+    const right = scaled(side, 1 / norm(side)), rise = cross(toward, right);
+    const extent = (d) => {
+      let a = Infinity, b = -Infinity;
+      for (let i = 0; i < n_node; i++) {
+        const v = dot(place(nodes, i), d);
+        a = Math.min(a, v); b = Math.max(b, v);
+      }
+      return b - a + 0.12 * size;
+    };
+    const { clientWidth: w, clientHeight: h } = stage;
+    return 2.15 * size * Math.min(0.76 * (w / h) / extent(right), 0.8 / extent(rise));
+  }
+  const axis = (k) => ({ visible: false, showspikes: false, range: ranges[k], autorange: false });
+  function camera() {
+    const k = 1.15 / norm(eye);
+    return { up: { x: up[0], y: up[1], z: up[2] }, projection: { type: "orthographic" },
+      eye: { x: k * eye[0], y: k * eye[1], z: k * eye[2] }, center: { x: 0, y: 0, z: 0 } };
+  }
   const layout = { margin: { l: 0, r: 0, t: 0, b: 0 }, showlegend: false, uirevision: "kept",
     paper_bgcolor: "#fff", hoverlabel: { bgcolor: "#fff", bordercolor: "#44546a", align: "left",
       font: { color: "#1b2430", size: 12 } },
-    scene: { aspectmode: "data", xaxis: axis, yaxis: axis, zaxis: axis, dragmode: "orbit",
-      camera: camera() } };
-  function camera() {
-    const k = 1.9 / norm(flat), most = Math.max(...span), wide = norm(span) / most;
-    return { up: { x: up[0], y: up[1], z: up[2] }, projection: { type: "orthographic" },
-      eye: { x: k * flat[0], y: k * flat[1], z: k * flat[2] }, center: { x: 0, y: 0, z: 0 },
-      wide };
-  }
-  delete layout.scene.camera.wide;
+    scene: { aspectmode: "manual", aspectratio: { x: ratio[0], y: ratio[1], z: ratio[2] },
+      xaxis: axis(0), yaxis: axis(1), zaxis: axis(2), dragmode: "orbit", camera: camera() } };
 
   function legend(key) {
     const host = get("legend");
@@ -353,9 +378,7 @@ const DATA = JSON.parse(document.getElementById("data").textContent);
   get("scale").addEventListener("input", draw);
   get("controls").addEventListener("submit", (event) => event.preventDefault());
   get("home").addEventListener("click", () => {
-    const found = camera();
-    delete found.wide;
-    Plotly.relayout(stage, { "scene.camera": found });
+    Plotly.relayout(stage, { "scene.camera": camera() });
   });
   draw();
 })();

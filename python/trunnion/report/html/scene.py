@@ -44,6 +44,7 @@ def scene(results: Results, units: ReportUnits) -> dict[str, object] | None:
         "element": [f"{p.start}-{p.end}" for p in system.parts],
         "type": [part.type for part in system.parts],
         "labels": list(system.labels),
+        "spans": np.round(system.length, 6).tolist(),
         "nodes": packed(system.xyz),
         "cards": _cards(system),
         "states": list(STATES),

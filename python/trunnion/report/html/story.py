@@ -12,12 +12,13 @@ from trunnion.results.supports import STATES
 
 SUPPORTS = 40  # told of one case, the most restless
 ROWS = 200  # iterations of one support
-TURNS = 3  # changes in a row from which two states alternate
+TURNS = 3  # returns to the state before the last, from which a support goes to and fro
+SHARE = 0.05  # of the normal force: a smaller exchange explains nothing
 
 
 @frozen(eq=False)
 class Course:
-    """What all supports did: rows are iterations, columns support cards.
+    """What all supports did: rows are the start and the iterations, columns support cards.
 
     level : index into STATES.  normal : [N].  used : F / (mu N), NaN without friction.
     angle : of sliding in the support's plane [deg]; NaN where nothing rubs.
@@ -35,7 +36,7 @@ def stories(results: Results, units: ReportUnits) -> list[dict[str, object]]:
 
 
 def course(case: CaseResult) -> Course:
-    """Gather the iterations by support card: the contacts together, the busiest slider."""
+    """Gather the iterations by support card: its contacts, or its most loaded slider."""
     system, n_card, n = case.system, len(case.system.cards), len(case.passes)
     contacts, sliders = system.contacts, system.sliders
     level = np.zeros((n, n_card), np.int8)
@@ -49,19 +50,20 @@ def course(case: CaseResult) -> Course:
         total = np.zeros((n_card, 3))
         np.add.at(total, contacts.card[pushes], at.reaction[pushes])
         normal[i] = np.linalg.norm(total, axis=1)
-        normal[i, sliders.card] = at.normal
+        rising = np.argsort(at.normal, kind="stable")  # the last one of a card stands
+        normal[i, sliders.card[rising]] = at.normal[rising]
         size, capacity = np.linalg.norm(at.friction, axis=1), mu * at.normal
-        rubs = capacity > 0.0
+        rubs = rising[capacity[rising] > 0.0]
         used[i, sliders.card[rubs]] = size[rubs] / capacity[rubs]
         part = -np.einsum("nij,nj->ni", sliders.basis, at.friction)
-        moving = rubs & (size > 1e-6 * capacity)
+        moving = rubs[size[rubs] > 1e-6 * capacity[rubs]]
         turned = [degrees(atan2(y, x)) for x, y in part[moving].tolist()]
         angle[i, sliders.card[moving]] = turned
     return Course(level, normal, used, angle)
 
 
 def _story(case: CaseResult, units: ReportUnits) -> dict[str, object]:
-    kept = len(case.passes)
+    kept = max(len(case.passes) - 1, 0)
     found = course(case)
     changes = {i: _changes(found.level[:, i]) for i in range(found.level.shape[1])}
     restless = sorted((i for i in changes if changes[i]), key=lambda i: (-len(changes[i]), i))
@@ -91,7 +93,7 @@ def _story(case: CaseResult, units: ReportUnits) -> dict[str, object]:
 
 
 def _changes(level: NDArray[np.int8]) -> list[int]:
-    """Iterations (from 0) whose state is not that of the one before."""
+    """Iterations whose state is not that of the one before; 0 is the start."""
     return [i + 1 for i in np.flatnonzero(np.diff(level)).tolist()]
 
 
@@ -109,7 +111,7 @@ def _rows(found: Course, card: int, units: ReportUnits) -> list[list[object]]:
     shown = list(range(n)) if n <= ROWS else [*range(ROWS // 2), *range(n - ROWS // 2, n)]
     return [
         [
-            i + 1,
+            i,
             STATES[found.level[i, card]],
             _plain(round(float(found.normal[i, card]) * units.force.factor, 6)),
             _plain(round(float(found.used[i, card]), 4)),
@@ -125,27 +127,39 @@ def words(
     """Tell in words what a support did, with whom it alternates, and why."""
     own, level = changes[card], found.level[:, card]
     first, last = STATES[level[0]], STATES[level[-1]]
-    if len(own) == 1:
-        return f"{first} at first, {last} from iteration {own[0] + 1} on."
-    text = f"Changed {len(own)} times: {first} at first, {last} from iteration {own[-1] + 1} on."
-    if len(own) < TURNS:
+    if len(own) <= 2 * TURNS:
+        path = [f"{STATES[level[i]]} at iteration {i}" for i in own[:-1]]
+        text = ", ".join([f"{first} at first", *path, f"{last} from iteration {own[-1]} on."])
+    else:
+        text = f"{first} at first, changed {len(own)} times, {last} from iteration {own[-1]} on."
+    text = text[0].upper() + text[1:]
+    if not _to_and_fro(found, own, card):
         return text
-    pair = sorted({int(level[i]) for i in own} | {int(level[own[0] - 1])})
-    if len(pair) == 2:
-        text += f" It went to and fro between {STATES[pair[0]]} and {STATES[pair[1]]}."
-    partner = _partner(changes, card)
+    text += " It went to and fro."
+    partner = _partner(found, changes, card)
     if partner is not None:
         return f"{text} {_shared(system, found, own, card, partner, units)}"
     near = found.used[own, card]
     if np.isfinite(near).all() and near.min() > 0.9:
-        text += f" Its friction is at {100 * near.min():.0f} % of mu N or more: it is about to slide."
+        text += f" Each time its friction was at {100 * near.min():.0f} % of mu N or more."
     return text
 
 
-def _partner(changes: dict[int, list[int]], card: int) -> int | None:
-    """Find the other support that changes most often in the same iterations."""
+def _to_and_fro(found: Course, own: list[int], card: int) -> bool:
+    """Tell whether a support came back TURNS times to the state that it had left just before."""
+    states = [int(found.level[0, card]), *found.level[own, card].tolist()]
+    returns = sum(a == b for a, b in zip(states, states[2:], strict=False))
+    return returns >= TURNS
+
+
+def _partner(found: Course, changes: dict[int, list[int]], card: int) -> int | None:
+    """Find the other restless support that changes in most of the same iterations."""
     own = set(changes[card])
-    common = {i: len(own & set(at)) for i, at in changes.items() if i != card}
+    common = {
+        i: len(own & set(at))
+        for i, at in changes.items()
+        if i != card and _to_and_fro(found, at, i)
+    }
     best = max(common, key=lambda i: (common[i], -i), default=None)
     if best is None or common[best] < max(TURNS, len(own) // 2 + 1):
         return None
@@ -155,20 +169,24 @@ def _partner(changes: dict[int, list[int]], card: int) -> int | None:
 def _shared(
     system: System, found: Course, own: list[int], card: int, partner: int, units: ReportUnits
 ) -> str:
-    """Say why two supports change together: by what their normal forces do."""
-    mine, other = (found.normal[own, i] - found.normal[np.array(own) - 1, i] for i in (card, partner))
+    """Say how two supports change together, and why as far as their normal forces show it.
+
+    They share a load if, in most of the changes, one takes what the other loses, and if that is
+    more than SHARE of the largest normal force of both.
+    """
+    at = np.array(own)
+    mine, other = (found.normal[at, i] - found.normal[at - 1, i] for i in (card, partner))
     name, q = system.cards[partner].name, units.force
-    most = [q.showing(float(np.abs(x).max())).text(float(np.abs(x).max())) for x in (mine, other)]
-    opposite = float((mine * other).sum()) < 0.0
-    if opposite:
-        return (
-            f"These two alternate: this one and {name} change in the same iterations, because they "
-            f"share a load; when the normal force of one falls, that of the other rises (by up to "
-            f"{most[0]} and {most[1]} {q.unit})."
-        )
+    text = f"This one and {name} change in the same iterations"
+    floor = SHARE * np.array([found.normal[:, i].max() for i in (card, partner)])
+    exchange = (mine * other < 0.0) & (np.abs(mine) > floor[0]) & (np.abs(other) > floor[1])
+    if 2 * exchange.sum() <= len(own):
+        return f"{text}."
+    most = [float(np.abs(x[exchange]).max()) for x in (mine, other)]
+    shown = " and ".join(q.showing(x).text(x) for x in most)
     return (
-        f"It changes in the same iterations as {name}, and their normal forces rise and fall "
-        f"together (by up to {most[0]} and {most[1]} {q.unit})."
+        f"{text}: these two alternate because they share a load, and what the normal force of one "
+        f"loses the other takes (up to {shown} {q.unit})."
     )
 
 

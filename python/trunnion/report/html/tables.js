@@ -12,7 +12,9 @@
   const shown = (column, cell) => {
     if (cell === null) return "";
     if (typeof cell !== "number" || column.decimals === null) return String(cell);
-    return column.exponent ? cell.toExponential(column.decimals) : cell.toFixed(column.decimals);
+    if (column.exponent) return cell.toExponential(column.decimals);
+    const text = cell.toFixed(column.decimals);
+    return Number(text) === 0 ? text.replace("-", "") : text;
   };
 
   function grid(table) {
@@ -149,7 +151,8 @@
     if (residuals.filter((r) => r > 0).length > 2) {
       const chart = make("div", null, "residual");
       told.append(chart);
-      const x = residuals.map((_, i) => i + 1);
+      const x = residuals.map((_, i) => i + 1), tens = residuals.filter((r) => r > 0).map(Math.log10);
+      const decades = Math.ceil(Math.max(...tens)) - Math.floor(Math.min(...tens));
       Plotly.newPlot(chart, [
         { x, y: story.passes.map((p) => p.n_changed), type: "bar", yaxis: "y2",
           marker: { color: "#d7dde6" }, name: "supports that changed", hoverinfo: "x+y+name" },
@@ -158,11 +161,14 @@
           text: story.passes.map((p) => p.what), hovertemplate: "%{x}: %{y:.2e} (%{text})" },
       ], { margin: { l: 64, r: 56, t: 26, b: 38 }, font: { size: 11, color: "#1b2430" },
         legend: { orientation: "h", y: 1.16, x: 0 }, xaxis: { title: { text: "iteration" },
-          rangemode: "tozero", showgrid: false },
-        yaxis: { type: "log", title: { text: "residual" }, exponentformat: "e", nticks: 5,
+          range: [0.4, x.length + 0.6], showgrid: false,
+          dtick: Math.max(1, Math.ceil(x.length / 15)) },
+        yaxis: { type: "log", title: { text: "residual" }, exponentformat: "power",
+          dtick: Math.max(1, Math.ceil(decades / 5)),
           overlaying: "y2", gridcolor: "#edf0f4" },
         yaxis2: { side: "right", title: { text: "changes" }, rangemode: "tozero",
-          showgrid: false, nticks: 4, tickformat: "d" } },
+          showgrid: false, dtick: Math.max(1, Math.ceil(
+            Math.max(...story.passes.map((p) => p.n_changed)) / 5)) } },
       { displayModeBar: false, responsive: true });
     }
     for (const support of story.supports) {
