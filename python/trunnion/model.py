@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from trunnion.frozen import frozen
-from trunnion.origin import Origin
+from trunnion.origin import InputFile, Origin
 
 Label = str | int
 Points = Sequence[Sequence[float]]
@@ -501,6 +501,8 @@ class Model:
     carried: Any = field(default=None, compare=False, repr=False)
     # the foreign file that it was made from, and what is missing; None for a deck
     origin: Origin | None = field(default=None, compare=False)
+    # the file that it was read from; None for a model made in Python or of a text
+    file: InputFile | None = field(default=None, compare=False, repr=False)
 
     def default(self, **keys: Value) -> None:
         """Choose for the whole model: MU= K= KR= KF= SHEAR= UP= G= STIFFEN= BOURDON= ..."""

@@ -41,3 +41,11 @@ class Origin:
     format: str  # "CAESAR II neutral file, version 11.0"
     left_out: tuple[LeftOut, ...] = ()
     assumed: tuple[Assumption, ...] = ()
+
+
+@frozen
+class InputFile:
+    """The file a model was read from: name without folder, SHA-256 of it with its includes."""
+
+    name: str
+    sha256: str

@@ -15,9 +15,6 @@ from trunnion.errors import ModelError
 CHUNK = 60
 RIGHT = 1e-9  # error of a displacement, relative to the largest
 TRUST = 2.5  # decades by which the estimate of lost digits may fall short of the true error
-# More lost than was said: a soft pipe of 1e8 Pa beside one of 1e12, a contact with next to no
-# force on it; not yet understood.  It stands here so that it stays visible, and fails when mended.
-WRONG = {536}
 
 
 def fault(seed: int) -> str | None:
@@ -45,5 +42,5 @@ def test_a_certified_answer_is_the_exact_one(first):
     seeds = range(first, first + CHUNK)
     ends = {seed: fault(seed) for seed in seeds}
     wrong = {seed: text for seed, text in ends.items() if text}
-    assert set(wrong) == WRONG & set(seeds), wrong
+    assert not wrong, wrong
     assert sum(text is None for text in ends.values()) >= 0.7 * CHUNK

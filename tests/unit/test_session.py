@@ -8,6 +8,7 @@ import pytest
 
 import trunnion
 from trunnion.deck.reader import read_text
+from trunnion.errors import ModelError
 
 MODELS = Path(__file__).parents[2] / "models"
 HEAD = """\
@@ -105,6 +106,44 @@ def test_one_changed_case_leaves_the_others():
     assert found["A"].work["factorise"] == 0
     assert found["A"].state is first["A"].state
     assert found["B"].work["factorise"] > 0
+
+
+def test_a_renamed_node_is_found_out():
+    """What an answer says of node 20 or 30 is not said of node 25 or 35."""
+    long = HEAD.replace("DX=5", "DX=80") + "SUPPORT 40 +Y MU=0.3\nCASE A = W\n"
+    session = trunnion.Session()
+    session.solve(read(long))
+    renamed = long.replace(" 20 ", " 25 ").replace(" 30 ", " 35 ")
+    found, fresh = session.solve(read(renamed)), trunnion.solve(read(renamed))
+    same(found, fresh)
+    assert found["A"].digits == fresh["A"].digits
+    assert found["A"].warnings == fresh["A"].warnings
+    assert any("5 turns by" in text for text in found["A"].warnings)
+
+
+def test_another_warning_of_a_case_is_found_out():
+    session = trunnion.Session()
+    session.solve(read(LINEAR))
+    found = session.solve(read(LINEAR.replace("A = W", "A = W + H")))
+    assert found["A"].warnings == ("H: there are no hangers",)
+
+
+def test_a_mechanism_is_refused_as_often_as_it_is_solved():
+    loose = LINEAR.replace("ANCHOR 10", "SUPPORT 10 X Y")
+    session = trunnion.Session()
+    for _ in range(2):
+        with pytest.raises(ModelError, match="no restraint holds it"):
+            session.solve(read(loose))
+
+
+def test_many_solves_leave_one_structure_behind():
+    """Other supports stand on the first structure, not on the last, which is let go."""
+    session = trunnion.Session()
+    for mu in (0.1, 0.2, 0.3, 0.4):
+        session.solve(read(FRICTION.replace("30 +Y MU=0.3", f"30 +Y MU={mu}")))
+    (structure,) = session.structures.values()
+    assert structure.parent is not None
+    assert structure.parent.parent is None
 
 
 def test_a_model_changed_in_code_is_found_out():

@@ -1,6 +1,7 @@
 """What a deck does not need is not done: exact ledgers of decks that differ by one feature.
 
-`refine` are three solves a case: the last correction, the price of the penalty, the digits left.
+`refine` are four solves a case: the last correction, the price of the penalty, the digits left
+and how many the factor has.
 `elements` counts their evaluations: the pipe of three elements is one chain, seen whole when
 stiffness is made and numbers are reported.
 """
@@ -30,13 +31,13 @@ def work(text):
 @pytest.mark.parametrize(
     ("text", "counts"),
     [
-        (LINEAR, (1, 1, 1, 1, 3, 0)),
-        (LINEAR + "CASE B = W + T1\nCASE C = 2*W\n", (1, 1, 1, 3, 9, 0)),
-        (LINEAR + "CASE B = W + T1\nCOMB D = B - A\n", (1, 1, 1, 2, 6, 0)),
-        (LINEAR + "SNUBBER 30 X\n", (1, 1, 1, 1, 3, 0)),
-        ("SUPPORT 40 +Y\nCASE A = W\n", (1, 1, 1, 1, 3, 1)),
-        ("SUPPORT 40 +Y X GAP=9\nCASE A = W\nCASE B = W + T1\n", (1, 1, 1, 2, 6, 2)),
-        ("SUPPORT 40 +Y\nCASE A = W\nCASE E = U(0.1,0,0) ABOUT=A\n", (1, 1, 2, 2, 6, 1)),
+        (LINEAR, (1, 1, 1, 1, 4, 0)),
+        (LINEAR + "CASE B = W + T1\nCASE C = 2*W\n", (1, 1, 1, 3, 12, 0)),
+        (LINEAR + "CASE B = W + T1\nCOMB D = B - A\n", (1, 1, 1, 2, 8, 0)),
+        (LINEAR + "SNUBBER 30 X\n", (1, 1, 1, 1, 4, 0)),
+        ("SUPPORT 40 +Y\nCASE A = W\n", (1, 1, 1, 1, 4, 1)),
+        ("SUPPORT 40 +Y X GAP=9\nCASE A = W\nCASE B = W + T1\n", (1, 1, 1, 2, 8, 2)),
+        ("SUPPORT 40 +Y\nCASE A = W\nCASE E = U(0.1,0,0) ABOUT=A\n", (1, 1, 2, 2, 8, 1)),
     ],
     ids=["one case", "three cases", "combination", "snubber", "rest", "open gap", "locked pass"],
 )
@@ -49,7 +50,7 @@ def test_the_work_is_exactly(text, counts):
 def test_a_report_of_one_case_sees_every_element_thrice():
     """At assembly, for the answer and for its correction; the chain's own counts are one each."""
     elements, chain, looks = 3, 1, 3
-    assert work(LINEAR)["elements"] == looks * elements + 3 * chain
+    assert work(LINEAR)["elements"] == looks * elements + 4 * chain
 
 
 def test_friction_that_nothing_presses_costs_no_factor():

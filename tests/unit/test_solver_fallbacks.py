@@ -207,3 +207,33 @@ def test_hot_modulus_is_that_of_the_table():
     close(results["HOT"], solve(hot)["HOT"], 1e-8)
     close(results["COLD"], solve(LINE + "CASE COLD = F1 + T1\n")["COLD"], 1e-8)
     assert results.work["analyse"] <= 2
+
+
+UNEVEN = """\
+MATERIAL M E=203e9 NU=0.3
+PROPERTY M T=20  E=203e9 ALPHA=12e-6
+PROPERTY M T=220 E=190e9 ALPHA=12e-6
+MATERIAL SOFT E=2e11 NU=0.3
+PROPERTY SOFT T=20  E=2e11 ALPHA=12e-6
+PROPERTY SOFT T=220 E=1e6  ALPHA=12e-6
+OPERATE  T1=220 TREF=20
+ANCHOR   10
+PIPE     10 20 DX=5 MATERIAL=M
+PIPE     20 30 DX=5 MATERIAL=SOFT
+PIPE     30 40 DX=5 MATERIAL=M
+SUPPORT  40 +Y MU=0.3
+FORCE    40 F1 FY=-1000
+{springs}CASE COLD = F1
+CASE HOT  = F1 + T1  FROM=COLD E=HOT STEPS=2
+CASE BACK = F1       FROM=HOT
+"""
+
+
+def test_a_hot_case_may_start_where_the_cold_chain_has_no_node():
+    """The hot modulus ends chains at 20 and 30; springs of no weight end them there always."""
+    springs = "SUPPORT 20 Z K=1e-6\nSUPPORT 30 Z K=1e-6\n"
+    found, held = solve(UNEVEN.format(springs="")), solve(UNEVEN.format(springs=springs))
+    for name in ("COLD", "HOT", "BACK"):
+        u, v = found[name].state.u, held[name].state.u
+        assert found[name].certificate.passed
+        assert u == pytest.approx(v, rel=0, abs=1e-9 * np.abs(v).max())

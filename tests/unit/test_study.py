@@ -144,6 +144,24 @@ def test_elements_vary_on_one_analysis(model, name):
     assert done.work["assemble"] == 1 + 4  # the deck's own, and once a value, not once a variant
 
 
+def test_a_variant_may_end_chains_at_other_nodes():
+    """A stub of 50 mm between long pipes ends chains (`solver.chains.APART`), one of 5 m none."""
+    deck = """\
+MATERIAL A E=203e9 NU=0.3 ALPHA=12e-6 DENSITY=7850
+SECTION P OD=0.2191 WALL=0.00818
+OPERATE T1=120 TREF=20
+ANCHOR 10
+PIPE 10 20 DX=5
+PIPE 20 30 DX=5
+PIPE 30 40 DX=5
+SUPPORT 40 +Y MU=0.3
+CASE A = W + T1
+"""
+    done = trunnion.study(read_text(deck, "deck.inp"), ["DX@20-30=5,0.05"], jobs=1)
+    alone = trunnion.solve(read_text(deck.replace("20 30 DX=5", "20 30 DX=0.05"), "deck.inp"))
+    assert done.answers.force[1, 0] == pytest.approx(card_forces(alone["A"]), rel=1e-9)
+
+
 def test_only_what_changes_is_made_anew(model, monkeypatch):
     from trunnion.cases import analysis
     from trunnion.many import variants

@@ -9,9 +9,9 @@ from trunnion.arrays import OPEN, CaseResult, ModeSet, State, System
 from trunnion.cases.spectrumcase import SpectrumPass
 from trunnion.loads.masses import model_masses
 from trunnion.model import Case, Modes
-from trunnion.solver.answer import at_rest
 from trunnion.solver.locked import frozen_system
 from trunnion.solver.modal import modes_of, with_friction
+from trunnion.solver.quantities import Point
 from trunnion.solver.structure import Structure
 
 if TYPE_CHECKING:
@@ -76,10 +76,9 @@ class Dynamics:
 
 def state_at_rest(structure: Structure) -> State:
     """Contacts of the undeformed pipe: closed where the gap is zero, nothing carried."""
-    rest = at_rest(structure)
     law = structure.frictionless()
     nothing = np.zeros((structure.n_node, 6))
-    response = structure.respond(rest.point, law, structure.still, nothing)
+    response = structure.respond(Point.zero(structure.n_node), law, structure.still, nothing)
     system: System = structure.system
     contacts, sliders = len(system.contacts.k), len(system.sliders.mu)
     flat = np.zeros((sliders, 3))

@@ -41,7 +41,7 @@ class LockedPass:
             elif case.nonlinear:
                 yield self._nonlinear(case, about)
             else:
-                which = self._hot(case)
+                which = self.hot(case)
                 own, _ = self._key(about)
                 key = (about.name, own if which is None else which, case.about is not None)
                 groups.setdefault(key, []).append(case)
@@ -61,7 +61,7 @@ class LockedPass:
         system, keep = frozen_system(parent.system, about.state, snubbers=snubbers)
         return Structure(system, self.run.ledger, parent, keep), keep
 
-    def _hot(self, case: Case) -> str | None:
+    def hot(self, case: Case) -> str | None:
         """Modulus set that E=HOT of a locked case asks for: its own, else of the frozen case."""
         if not case.hot:
             return None
@@ -130,7 +130,7 @@ class LockedPass:
     def _nonlinear(self, case: Case, about: CaseResult) -> CaseResult:
         """Operating and occasional loads together, snubbers locked where they are, less OPE."""
         own, _ = self._key(about)
-        if (self._hot(case) or own) != own:
+        if (self.hot(case) or own) != own:
             return self._refused(case, about, f"E=HOT with NONLINEAR, but {about.name} is not hot")
         structure = self.run.structure_of(own, snubbed=True)
         question = self.run.question_on(case, structure.system)

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from trunnion.model import Model
 
 PIPE = ("ends", "kind", "axes", "length", "radius", "angle", "rigidity", "flex", "spring", "xyz",
-        "taper")  # fmt: skip
+        "taper", "up")  # fmt: skip
 PLACES = ("node", "cnode")  # of supports: what the pattern of the stiffness stands on
 SUPPORTS = ("contacts", "sliders", "snubbers")
 
@@ -78,8 +78,9 @@ class Session:
                 last.turn_to(system, ledger)
                 return last
             if same_places(last.system, system):
-                last.turn_to(last.system, ledger)
-                last = self.structures[key] = Structure(system, ledger, parent=last)
+                first = last.parent or last  # not a line of parents that grows with every solve
+                first.turn_to(first.system, ledger)
+                last = self.structures[key] = Structure(system, ledger, parent=first)
                 return last
         self.structures[key] = Structure(system, ledger)
         return self.structures[key]
@@ -133,17 +134,22 @@ def same_places(a: System, b: System) -> bool:
 
 
 def same_supports(a: System, b: System) -> bool:
-    """Supports that are the same in every number and word."""
-    return a.cards == b.cards and all(
-        _same(x, y, tuple(field.name for field in fields(x)))
-        for x, y in ((getattr(a, s), getattr(b, s)) for s in SUPPORTS)
+    """Supports, and nodes, that are the same in every number and word."""
+    return (
+        a.labels == b.labels
+        and a.cards == b.cards
+        and all(
+            _same(x, y, tuple(field.name for field in fields(x)))
+            for x, y in ((getattr(a, s), getattr(b, s)) for s in SUPPORTS)
+        )
     )
 
 
 def _same_question(a: Question, b: Question) -> bool:
     names = tuple(field.name for field in fields(a.loads))
     plans = ("steps", "events", "iteration", "capacity", "u", "ramp")
-    return _same(a.loads, b.loads, names) and _same(a.plan, b.plan, plans)
+    same = _same(a.loads, b.loads, names) and _same(a.plan, b.plan, plans)
+    return same and a.warnings == b.warnings
 
 
 def _same(a: Any, b: Any, names: tuple[str, ...]) -> bool:

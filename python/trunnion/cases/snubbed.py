@@ -29,27 +29,28 @@ def go_on(
     loads : of the case.
     """
     begun = origin.loads
-    if begun is None or not len(system.snubbers.k):
-        return loads, replace(origin, point=origin.point.copy())
+    if begun is None:
+        return loads, origin
+    if not len(system.snubbers.k):
+        return loads, replace(origin, forcing=structure.forcing(begun))
     before = np.zeros_like(begun.base) if origin.lock is None else origin.lock
     now = np.zeros_like(before)
     if locked:
-        now = _position(system, structure, origin) if origin.lock is None else origin.lock
+        now = _position(system, origin) if origin.lock is None else origin.lock
     start = replace(begun, base=begun.base - before + now)
     forcing = structure.forcing(start)
     lock = now if locked else None
     return (
         replace(loads, base=loads.base + now),
-        Origin(forcing, origin.point.copy(), origin.datum, start, lock),
+        Origin(forcing, origin.point, origin.datum, start, lock),
     )
 
 
-def _position(system: System, structure: Structure, origin: Origin) -> F8:
+def _position(system: System, origin: Origin) -> F8:
     """(n_card, 6) movement of each snubber against its ground or its other end."""
     assert origin.loads is not None
     u, s = origin.point.u + origin.point.low, system.snubbers
     out = np.zeros_like(origin.loads.base)
-    node, cnode = structure.number(s.node), structure.number(s.cnode)
-    other = np.where((s.cnode >= 0)[:, None], u[cnode], 0.0)
-    out[s.card] = u[node] - other - origin.loads.base[s.card]
+    other = np.where((s.cnode >= 0)[:, None], u[s.cnode], 0.0)
+    out[s.card] = u[s.node] - other - origin.loads.base[s.card]
     return out

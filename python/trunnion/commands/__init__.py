@@ -8,6 +8,9 @@ COMMANDS = {
     "batch": "Solve many DECKS; skip those that are finished.",
     "check": "Read DECK, look for mechanisms and missing loads; solve and write nothing.",
     "convert": "Write a file of another program (.cii, .xml, .pcf) as a deck.",
+    "diff": "Compare two decks or two results; 0: the same, 1: they differ.",
     "run": "Solve DECK; write <stem>.out and <stem>.json.",
+    "show": "Print tables of a stored result (.json).",
     "study": "Solve variants of DECK on one symbolic analysis; envelope of support loads.",
+    "verify": "Run the deck of a stored result again and compare; or judge its numbers.",
 }

@@ -1,5 +1,6 @@
 """From files to logical cards: comments, continuation, INCLUDE, and refusal of hostile input."""
 
+import hashlib
 import os
 import re
 import stat
@@ -54,6 +55,14 @@ class Deck:
     bytes: int = 0
     files: int = 0
     sources: list[str] = field(default_factory=list)  # the deck and its includes
+    digests: list[str] = field(default_factory=list)  # SHA-256 of each, in the order read
+
+    @property
+    def digest(self) -> str:
+        """SHA-256 of the deck; with includes that of their digests in the order read."""
+        if len(self.digests) == 1:
+            return self.digests[0]
+        return hashlib.sha256("".join(self.digests).encode()).hexdigest()
 
 
 def read_cards(path: str | os.PathLike[str]) -> Deck:
@@ -101,6 +110,7 @@ def _text_of(path: Path, deck: Deck, place: Place, card: Card | None) -> str | N
         return None
     deck.files += 1
     deck.sources.append(str(path))
+    deck.digests.append(hashlib.sha256(data).hexdigest())
     deck.bytes += len(data)
     if deck.bytes > MAX_BYTES:
         refuse(f"{path}: the deck with its includes is over {MAX_BYTES // 10**6} MB")

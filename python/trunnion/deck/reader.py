@@ -18,6 +18,7 @@ from trunnion.deck.record import Fault, Mark, Record
 from trunnion.deck.values import nearest
 from trunnion.errors import DeckError, Problem
 from trunnion.model import Model, Place, Units
+from trunnion.origin import InputFile
 
 _FIRST = ("TITLE", "UNITS", "DEFAULT")
 _FORMS = {name: keyword.form for name, keyword in KEYWORDS.items()}
@@ -58,6 +59,8 @@ def _read(deck: Deck) -> Model:
     reading.run()
     if reading.faults or deck.refusals:
         raise DeckError(_problems(deck, reading.faults))
+    if deck.digests:
+        reading.model.file = InputFile(os.path.basename(deck.file), deck.digest)
     return reading.model
 
 

@@ -16,6 +16,7 @@ from trunnion.formats.options import NONE, Options
 from trunnion.formats.source import Source, read_source
 from trunnion.frozen import frozen
 from trunnion.model import Place
+from trunnion.origin import InputFile
 
 __all__ = ["FORMATS", "Findings", "Imported", "Note", "Options", "Source", "is_foreign", "read_any"]
 
@@ -73,7 +74,9 @@ def read_any(
         text = f"{' and '.join(useless)} mean nothing for a {form.name}"
         raise DeckError([Problem(Place(source.file, 1), text)])
     read: Callable[[Source, Findings], Imported] = import_module(form.module).read
-    return read(source, Findings(source, permissive=permissive, options=options))
+    found = read(source, Findings(source, permissive=permissive, options=options))
+    found.model.file = InputFile(os.path.basename(source.file), source.sha256)
+    return found
 
 
 def _suffix_of(source: Source) -> str:

@@ -1,5 +1,6 @@
 """The text of a foreign file: ordinary files only, bounded in size, in whatever encoding."""
 
+import hashlib
 import os
 import re
 import stat
@@ -27,6 +28,7 @@ class Source:
     file: str
     lines: tuple[str, ...]
     encoding: str = "utf-8"
+    sha256: str = ""
 
     def marker(self, line: int, columns: tuple[int, int] | None = None) -> str:
         """Show a line (from 1) with carets under `columns` (first, last+1, from 0)."""
@@ -73,7 +75,7 @@ def source_of(data: bytes, file: str) -> Source:
     for number, line_text in enumerate(lines, 1):
         if len(line_text) > MAX_LINE:
             _refuse(file, number, f"line of {len(line_text)} characters; {MAX_LINE} are the limit")
-    return Source(file, lines, encoding)
+    return Source(file, lines, encoding, hashlib.sha256(data).hexdigest())
 
 
 def _decode(data: bytes) -> tuple[str, str]:

@@ -16,6 +16,7 @@ from trunnion.report.json_modes import mode_entries
 from trunnion.report.json_runs import cycle_entries, envelope_entries, frozen_entries
 from trunnion.report.json_supports import support_entries
 from trunnion.report.json_winds import wind_entries
+from trunnion.report.manifest import manifest_entry
 from trunnion.report.origin import origin_entry
 from trunnion.results.balance import load_sum, local_end_forces, reaction_sum
 from trunnion.results.interior import mid_of_bend
@@ -34,6 +35,7 @@ def json_report(results: Results, model: Model | None = None) -> bytes:
     parts = {
         "schema": "1",
         "title": dump(results.title),
+        **({} if model is None or model.file is None else {"manifest": manifest_entry(model)}),
         **({} if model is None or model.origin is None else {"origin": origin_entry(model.origin)}),
         "cases": lines({name: _case(case) for name, case in results.cases.items()}),
         "envelope": envelope_entries(results),

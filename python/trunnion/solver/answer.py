@@ -82,7 +82,7 @@ def answer(
 def at_rest(structure: Structure) -> Origin:
     """The undeformed, unloaded start."""
     datum = np.zeros((len(structure.sliders.mu), 3))
-    return Origin(structure.still, Point.zero(structure.n_node), datum)
+    return Origin(structure.still, Point.zero(len(structure.system.labels)), datum)
 
 
 def forcing_of(structure: Structure, question: Question) -> Forcing:
@@ -110,10 +110,10 @@ def refuse_mechanisms(structure: Structure) -> None:
     poor = held is not None and not (held[2] == 0.0 and structure.rcond > TINY_PIVOT)
     if structure.checked or not (structure.shifted or poor):
         return
-    structure.checked = True
     motions = structural_motions(structure)
     if motions and not holds_extended(structure):
         raise ModelError([Problem("structure", motion.text) for motion in motions])
+    structure.checked = True  # a session may ask a refused structure again
 
 
 def holds_extended(structure: Structure) -> bool:
@@ -165,16 +165,14 @@ class Job:
     history: History
     result: CaseResult
     solved: Solved | None = None
-
-    @property
-    def unbounded(self) -> bool:
-        """The pipe moves away: more precision or smaller steps cannot help."""
-        return self.solved is not None and "without bound" in (self.solved.cause or "")
+    blind: bool = False  # the last attempt could not see what was left to correct
 
     def doubtful(self) -> bool:
         """The factor may be to blame that there is no answer."""
-        if self.solved is None or self.unbounded:
+        if self.solved is None:
             return False
+        if self.blind:
+            return True
         return is_lossy(self.structure, self.solved.response, self.forcing)
 
     def explain(self) -> str:
@@ -207,8 +205,9 @@ def _attempt(job: Job, prepared: tuple[Point, Solved] | None = None) -> Origin |
         correction_u=reported.correction_u,
         correction_r=reported.correction_r,
     )
-    if reported.broken or not result.certificate.passed:
-        result.cause = reported.broken or refusal(result.certificate)
+    job.blind = reported.blind
+    if reported.broken or not result.certificate.passed or reported.blind:
+        result.cause = reported.broken or refusal(result.certificate, blind=reported.blind)
         return None
     result.cause = None
     result.state, result.converged = reported.state, True
@@ -217,11 +216,14 @@ def _attempt(job: Job, prepared: tuple[Point, Solved] | None = None) -> Origin |
     result.digits = reported.digits
     result.warnings += tuple(job.history.notes) + _remarks(structure, reported)
     datum = _all_sliders(structure, reported.state.datum_end)
-    return Origin(forcing, point, datum, job.question.loads, job.start.lock)
+    whole = Point(reported.state.u, reported.state.u_low)
+    return Origin(forcing, whole, datum, job.question.loads, job.start.lock)
 
 
-def refusal(certificate: Certificate) -> str:
-    """Why a certificate did not pass."""
+def refusal(certificate: Certificate, *, blind: bool = False) -> str:
+    """Why a certificate did not pass, or may not be believed."""
+    if certificate.passed and blind:
+        return "the stiffness is too ill-conditioned: no correction of the answer can be trusted"
     return f"certificate: {certificate.where} is {certificate.worst:.3g}, above 1e-9"
 
 

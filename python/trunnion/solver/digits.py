@@ -4,31 +4,52 @@ from math import log10
 
 import numpy as np
 
-from trunnion.arrays import F8
+from trunnion.arrays import F8, SLIP
 from trunnion.solver.coupled import coupled_step
-from trunnion.solver.newton import tangent_factor
+from trunnion.solver.newton import TINY_PIVOT, tangent_factor
 from trunnion.solver.quantities import Forcing, Point, Response, Sliding
 from trunnion.solver.structure import Structure
 
 FREEDOMS = ("X", "Y", "Z", "RX", "RY", "RZ")
 DIGITS = 15.9  # of a double
+BLIND = 1e-4  # the same, above which refinement cannot see what is left
 POOR = 1e-6  # correction of a solution by its own residual: fewer than six digits a solve
 
 
 def is_lossy(structure: Structure, response: Response, forcing: Forcing) -> bool:
-    """Tell whether the factor of these tangents solves to fewer than six digits.
-
-    The load's first solution is corrected by its own residual, which is formed from deformations;
-    what is corrected is what the factor got wrong (Wilkinson 1963, iterative refinement).
-    """
+    """Tell whether the factor of these tangents solves to fewer than six digits."""
     tangent_factor(structure, response)
     load = structure.residual(Point.zero(structure.n_node), structure.frictionless(), forcing)[0]
     load[structure.absent] = 0.0
-    p = structure.solve(load)
-    back = structure.product(response.tangent, response.slider_tangent, p)
-    correction = structure.solve(load - back)
-    size = _size(structure, p)
-    return not _size(structure, correction) <= POOR * max(size, 1e-300)
+    return not _loss(structure, load, structure.solve(load)) <= POOR
+
+
+def _loss(structure: Structure, load: F8, p: F8) -> float:
+    """Part of a solution p that its own residual, formed from deformations, takes back.
+
+    What is corrected is what the factor got wrong (Wilkinson 1963, iterative refinement).
+    """
+    held = structure.held
+    assert held is not None
+    if held[2] > 0.0:  # it solves another matrix
+        return 0.0 if _is_singular(structure) else np.inf
+    correction = structure.solve(load - structure.product(held[0], held[1], p))
+    return _size(structure, correction) / max(_size(structure, p), 1e-300)
+
+
+def _is_singular(structure: Structure) -> bool:
+    """Tell whether tangents that needed a shift have motions without stiffness in 32 digits, too.
+
+    The factor is left as it was.
+    """
+    held = structure.held
+    assert held is not None
+    if structure.extended is not None or not structure.extend(True):
+        return True
+    sound = structure.factorise(held[0], held[1]) and structure.rcond > TINY_PIVOT
+    structure.extend(False)
+    structure.factorise(*held)
+    return not sound
 
 
 def digits_left(
@@ -38,7 +59,7 @@ def digits_left(
     forcing: Forcing,
     response: Response,
     correction: float,
-) -> tuple[float, str]:
+) -> tuple[float, str, bool]:
     """Digits of the displacements that do not hang on the last bit of the input.
 
     Every member's end forces are changed by up to one part, with scattered signs, as a change of
@@ -53,7 +74,8 @@ def digits_left(
 
     Returns
     -------
-    Digits left of the 16 that doubles have, and the freedom that loses most ("node 40 RX").
+    Digits left of the 16 that doubles have, the freedom that loses most ("node 40 RX"), and
+    whether the factor solves so badly that no correction found with it can be trusted.
     """
     load = _scattered(point.u.size, 2).reshape(-1, 6) * forcing.nodal
     for start, at in enumerate((point, Point.zero(structure.n_node))):
@@ -62,14 +84,18 @@ def digits_left(
         for side in (0, 1):
             np.add.at(load, structure.members.ends[:, side], signs[:, None] * end[:, side])
     load[structure.absent] = 0.0
-    moved = np.abs(coupled_step(structure, response, law, load))
+    p = structure.solve(load)
+    blind = not _loss(structure, load, p) <= BLIND
+    if (response.mode == SLIP).any():
+        p = coupled_step(structure, response, law, load)
+    moved = np.abs(p)
     moved[:, 3:] *= structure.reach
     node, freedom = np.unravel_index(int(moved.argmax()), moved.shape)
     name = f"node {structure.system.labels[structure.kept[node]]} {FREEDOMS[freedom]}"
     size = max(_size(structure, point.u), 1e-300)
     lost = max(log10(max(float(moved[node, freedom]) / size, 1.0)), 0.0)
     reached = -log10(max(correction, 1e-300))
-    return min(DIGITS - lost, reached), name
+    return min(DIGITS - lost, reached), name, blind
 
 
 def _scattered(n: int, start: int) -> F8:

@@ -73,6 +73,13 @@ def chain_members(system: System) -> Members:
     return Members(chains.ends, axes, d, k, form, arm, chains)
 
 
+def same_joints(a: Members, b: Members) -> bool:
+    """Tell whether members of two systems with the same ends join the same nodes."""
+    if a.chains is None or b.chains is None:
+        return a.chains is b.chains
+    return np.array_equal(a.chains.kept, b.chains.kept) and np.array_equal(a.ends, b.ends)
+
+
 def member_loads(members: Members, system: System, loads: Loads) -> tuple[F8, F8, F8, Inside]:
     """Free tip deformation, load resultant and nodal loads; and the loads inside the members."""
     if members.elements:

@@ -36,6 +36,8 @@ class Plan:
 class Origin:
     """Where a case starts: loads, displacements and committed data of the case FROM names.
 
+    forcing : the loads as the structure of the case that starts sees them: with its moduli.
+    point : of all nodes of the model.
     lock : (n_card, 6) where snubbers locked, against their ground; None where they are free.
     """
 
@@ -54,9 +56,10 @@ def solve_case(
     law = Sliding(np.zeros(len(s.mu)), s.kf, s.mu * forcing.mux, origin.datum.copy())
     solve = solve_status if plan.iteration == "STATUS" else solve_step
     capacity = plan.capacity
-    start, point = origin.forcing, origin.point.copy()
+    kept = structure.kept
+    start, point = origin.forcing, Point(origin.point.u[kept], origin.point.low[kept])
     if plan.u is not None:
-        point = Point(plan.u[structure.kept], np.zeros_like(point.low))
+        point = Point(plan.u[kept], np.zeros_like(point.low))
     solved = None
     for i in range(plan.steps):
         target = origin.forcing.toward(forcing, (i + 1) / plan.steps)

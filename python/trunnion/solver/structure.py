@@ -16,6 +16,7 @@ from trunnion.solver.members import (
     end_forces,
     member_end_forces,
     member_loads,
+    same_joints,
     whole_members,
 )
 from trunnion.solver.pattern import Pattern, build_pattern
@@ -64,6 +65,8 @@ class Structure:
         self.extended: ExtendedFactor | None = None
         if parent is None:
             self.members = whole_members(system) if whole else chain_members(system)
+            if like is not None and not same_joints(self.members, like.members):
+                like = None  # other lengths and bores may end chains at other nodes
             self.box: Box = Box() if like is None else like.box
         else:
             self.members, self.box = parent.members, parent.box
@@ -98,6 +101,8 @@ class Structure:
         self.__dict__.pop("full", None)
         if self.box.spd is not None:
             ledger.begin(self.box, self.box.spd.work)
+        if self.parent is not None:
+            self.parent.turn_to(self.parent.system, ledger)
 
     @cached_property
     def full(self) -> "Structure":
@@ -114,11 +119,6 @@ class Structure:
         """(n_node,) numbers of the equations' nodes in the model."""
         chains = self.members.chains
         return np.arange(self.n_node, dtype=np.int32) if chains is None else chains.kept
-
-    def number(self, node: I4) -> I4:
-        """Numbers of the model's nodes among those of the equations."""
-        chains = self.members.chains
-        return node if chains is None else chains.place[node]
 
     def _supports(self) -> None:
         c, s = self.contacts, self.sliders

@@ -29,6 +29,7 @@ class Reported:
     penalty_r: F8
     penalty_effect: dict[str, float]
     digits: tuple[float, str]  # left of 16, and the freedom that lost most
+    blind: bool  # the corrections were found with a factor that has no digits
     singular: bool  # the tangent at the answer needed a proximal term
     broken: str | None  # the convergence rule that the last two iterations do not meet
 
@@ -60,11 +61,12 @@ def report_numbers(
             r, every, end, response = after
         broken = judge(response, after[3], p, None, point.u).broken
         penalty_u, penalty_r, effect = _penalty(structure, point, response)
-        digits = digits_left(structure, point, law, forcing, response, left[0])
+        left_over, where, blind = digits_left(structure, point, law, forcing, response, left[0])
+        digits = left_over, where
     finally:
         structure.ledger.refining = False
     state = _state(structure, every, law, response, end)
-    return Reported(state, *left, penalty_u, penalty_r, effect, digits, shift > 0.0, broken)
+    return Reported(state, *left, penalty_u, penalty_r, effect, digits, blind, shift > 0.0, broken)
 
 
 def _factor(structure: Structure, response: Response) -> float:

@@ -1,0 +1,86 @@
+"""trunnion diff: what changed between two decks or two results."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from trunnion.commands.shared import FAILED, SOLVED, InputError, read_model, say
+
+if TYPE_CHECKING:
+    from trunnion.compare.change import Change
+
+RELATIVE = click.FloatRange(0.0, max=1.0)
+
+
+@click.command()
+@click.argument("files", type=click.Path(path_type=Path), nargs=-1, required=True)
+@click.option(
+    "--tolerance",
+    type=RELATIVE,
+    help="Results: of the largest of its kind (1e-9); decks: of each number (0).",
+)
+@click.option("--most", type=click.IntRange(1), help="Print so many differences at most.")
+@click.option(
+    "--git", is_flag=True, help="Take the seven arguments of a diff driver of git; exit 0."
+)
+@click.option("--canonical", is_flag=True, help="Print one deck as git's textconv wants it.")
+def diff(
+    files: tuple[Path, ...], tolerance: float | None, most: int | None, git: bool, canonical: bool
+) -> int:
+    """Compare two decks or two results (.json), most important first.
+
+    Exit 0: the same.  1: they differ.  2: bad input.
+    """
+    if canonical:
+        from trunnion.compare.decks import canonical as text_of
+
+        if len(files) != 1:
+            raise InputError("--canonical takes one deck")
+        say(text_of(read_model(files[0])).rstrip("\n"))
+        return SOLVED
+    if git:
+        return _driver(files, tolerance)
+    if len(files) != 2:
+        raise InputError(f"diff takes two files, not {len(files)}")
+    changes = compare(*files, tolerance)
+    for change in changes[:most]:
+        say(str(change))
+    if most is not None and len(changes) > most:
+        say(f"... and {len(changes) - most} more differences")
+    return FAILED if changes else SOLVED
+
+
+def compare(a: Path, b: Path, tolerance: float | None) -> "list[Change]":
+    """Compare two files of one kind."""
+    kinds = [path.suffix.lower() == ".json" for path in (a, b)]
+    if kinds[0] != kinds[1]:
+        raise InputError("a deck and a result cannot be compared: give two of a kind")
+    if kinds[0]:
+        from trunnion.compare.results import diff_results
+        from trunnion.compare.stored import read_report
+
+        near = 1e-9 if tolerance is None else tolerance
+        return diff_results(read_report(a), read_report(b), near)
+    from trunnion.compare.decks import diff_decks
+
+    return diff_decks(read_model(a), read_model(b), tolerance or 0.0)
+
+
+def _driver(files: tuple[Path, ...], tolerance: float | None) -> int:
+    """Print for git, which gives path, old file, hex, mode, new file, hex, mode; wants exit 0."""
+    from trunnion.errors import DeckError, ModelError
+
+    if len(files) not in (7, 9):  # nine where the file was renamed
+        raise InputError("--git is for git, which gives seven arguments (GIT_EXTERNAL_DIFF)")
+    path, old, new = files[0], files[1], files[4]
+    say(f"trunnion diff {path}")
+    if str(old) == "/dev/null" or str(new) == "/dev/null":
+        say("  new file" if str(old) == "/dev/null" else "  deleted file")
+        return SOLVED
+    try:
+        for change in compare(old, new, tolerance):
+            say(f"  {change}")
+    except (DeckError, ModelError, InputError) as error:
+        say("  cannot be compared:\n" + "\n".join(f"  {x}" for x in str(error).splitlines()))
+    return SOLVED

@@ -1,0 +1,318 @@
+"""trunnion verify, diff and show on results that were written and then changed."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from trunnion.cli import main
+
+MODELS = Path(__file__).parents[2] / "models"
+DECK = """\
+TITLE    Line on rests
+UNITS    mm kN bar C
+DEFAULT  MU=0.3
+MATERIAL A106B  E=203GPa NU=0.3 ALPHA=11.7e-6 DENSITY=7850
+SECTION  HDR    NPS=10 SCH=40 FLUID=850
+OPERATE  T1=170 P1=12 TREF=20
+ANCHOR   10
+PIPE     10 20   DX=6000
+SUPPORT  20      +Y GUIDE GAP=3
+PIPE     20 30   DX=6000
+BEND     30      R=381
+PIPE     30 40   DZ=4000
+SUPPORT  40      +Y MU=0.3
+SNUBBER  40      X
+CASE SUS = W + P1
+CASE OPE = W + P1 + T1
+COMB EXP = OPE - SUS
+CASE HSUS = W + P1 ON=OPE
+CASE EQX = U(0.3,0,0) ABOUT=OPE
+COMB OCC = SUS + ABS(EQX)
+"""
+
+
+def leave(*arguments: object) -> int:
+    with pytest.raises(SystemExit) as stop:
+        main([str(a) for a in arguments])
+    return stop.value.code
+
+
+@pytest.fixture(scope="module")
+def written(tmp_path_factory):
+    """Bytes of the JSON of DECK."""
+    folder = tmp_path_factory.mktemp("line")
+    (folder / "a.inp").write_text(DECK)
+    assert leave("run", folder / "a.inp", "-o", folder) == 0
+    return (folder / "a.json").read_bytes()
+
+
+@pytest.fixture
+def home(tmp_path, written, monkeypatch):
+    (tmp_path / "a.inp").write_text(DECK)
+    (tmp_path / "a.json").write_bytes(written)
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.fixture
+def change(home):
+    """Change the stored result and write it as b.json."""
+
+    def make(edit) -> None:
+        report = json.loads((home / "a.json").read_bytes())
+        edit(report)
+        (home / "b.json").write_text(json.dumps(report))
+
+    return make
+
+
+def scaled(row: list[float], by: float) -> None:
+    """Scale the largest number of a row."""
+    i = max(range(len(row)), key=lambda i: abs(row[i]))
+    row[i] *= by
+
+
+# ---------------------------------------------------------------------- manifest
+def test_the_manifest_names_the_deck_its_hash_the_version_and_settings(home):
+    import hashlib
+    from importlib.metadata import version
+
+    manifest = json.loads((home / "a.json").read_bytes())["manifest"]
+    assert manifest == {
+        "deck": "a.inp",
+        "sha256": hashlib.sha256(DECK.encode()).hexdigest(),
+        "version": version("trunnion"),
+        "settings": {"iteration": "NEWTON", "events": False, "permissive": False},
+    }
+
+
+def test_the_same_deck_in_another_folder_gives_the_same_bytes(home, written):
+    (home / "there").mkdir()
+    (home / "there" / "a.inp").write_text(DECK)
+    assert leave("run", home / "there" / "a.inp", "-o", "out") == 0
+    assert (home / "out" / "a.json").read_bytes() == written
+
+
+def test_a_change_of_an_included_file_changes_the_hash(tmp_path):
+    from trunnion import read
+
+    (tmp_path / "a.inp").write_text("INCLUDE rest.inp\n")
+    found = []
+    for text in (DECK, DECK + "! a comment\n"):
+        (tmp_path / "rest.inp").write_text(text)
+        found.append(read(tmp_path / "a.inp").file)
+    assert found[0].name == "a.inp"
+    assert found[0].sha256 != found[1].sha256
+
+
+# ---------------------------------------------------------------------- verify
+def test_a_result_agrees_with_a_new_run(home, capsys):
+    assert leave("verify", "a.json") == 0
+    assert "6 cases agree" in capsys.readouterr().out
+
+
+def test_a_number_that_a_new_run_does_not_give_is_named(change, capsys):
+    change(lambda r: scaled(r["cases"]["OPE"]["supports"][0]["force"], 1 + 1e-6))
+    assert leave("verify", "b.json") == 1
+    assert capsys.readouterr().out.startswith("OPE support ")
+
+
+def test_stored_numbers_are_judged_without_solving(home, monkeypatch, capsys):
+    import trunnion
+
+    monkeypatch.setattr(trunnion, "solve", None)
+    assert leave("verify", "--certificate", "a.json") == 0
+    out = capsys.readouterr().out
+    assert [line.split(":")[:2] for line in out.splitlines()] == [
+        [name, " holds"] for name in ("SUS", "OPE", "EXP", "HSUS", "EQX", "OCC")
+    ]
+
+
+@pytest.mark.parametrize("case", ["SUS", "OPE", "EXP", "HSUS", "EQX", "OCC"])
+@pytest.mark.parametrize(
+    ("table", "row"),
+    [
+        ("elements", "force_from"),
+        ("elements", "force_to"),
+        ("elements", "local_to"),
+        ("supports", "force"),
+        ("supports", "moment"),
+        ("nodes", "40"),
+    ],
+)
+def test_a_force_changed_by_1e_6_fails_and_so_does_a_movement(change, case, table, row, capsys):
+    def edit(report):
+        entries = report["cases"][case][table]
+        rows = [entries[row]] if table == "nodes" else [entry[row] for entry in entries]
+        scaled(max(rows, key=lambda values: max(map(abs, values))), 1 + 1e-6)
+
+    change(edit)
+    assert leave("verify", "--certificate", "b.json") == 1
+    assert f"{case}: FAILS" in capsys.readouterr().out
+
+
+def test_a_contact_force_changed_by_1e_6_fails(change):
+    def edit(report):
+        rest = next(s for s in report["cases"]["OPE"]["supports"] if s["id"] == "40")
+        scaled(rest["contacts"][0]["vector"], 1 + 1e-6)
+
+    change(edit)
+    assert leave("verify", "--certificate", "b.json") == 1
+
+
+def test_tables_that_do_not_fit_the_deck_fail(change, capsys):
+    change(lambda r: r["cases"]["OPE"]["elements"].pop())
+    assert leave("verify", "--certificate", "b.json") == 1
+    assert "OPE: FAILS: its tables do not fit the deck" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("options", [(), ("--certificate",)])
+def test_a_changed_deck_is_named_and_nothing_is_compared(home, options, capsys):
+    (home / "a.inp").write_text(DECK.replace("R=381", "R=400"))
+    assert leave("verify", *options, "a.json") == 2
+    said = capsys.readouterr()
+    assert said.err.startswith("a.inp: not the deck of a.json, or changed since")
+    assert said.out == ""
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["", "{", "[]", "null", '{"schema":1}', '{"schema":1,"cases":{"A":3}}', "[" * 100000,
+     '{"schema":1,"cases":{"A":{"converged":true}}}', '{"schema":NaN}'],
+)  # fmt: skip
+@pytest.mark.parametrize("command", [("verify",), ("show",), ("diff", "a.json")])
+def test_what_is_no_result_is_refused(home, text, command, capsys):
+    (home / "bad.json").write_text(text)
+    assert leave(*command, "bad.json") == 2
+    assert "bad.json: " in capsys.readouterr().err
+
+
+def test_a_result_without_manifest_and_one_without_deck_are_refused(change, capsys):
+    change(lambda r: r.pop("manifest"))
+    assert leave("verify", "b.json") == 2
+    assert "no manifest" in capsys.readouterr().err
+    Path("a.inp").unlink()
+    assert leave("verify", "a.json") == 2
+    assert "--deck PATH" in capsys.readouterr().err
+
+
+# ---------------------------------------------------------------------- diff
+def test_decks_that_say_the_same_are_the_same(home, capsys):
+    (home / "b.inp").write_text(DECK.replace("R=381", "R=0.381m ! in metres").lower())
+    Path("b.inp").write_text(Path("b.inp").read_text().replace("line on rests", "Line on rests"))
+    assert leave("diff", "a.inp", "a.inp") == 0
+    assert capsys.readouterr().out == ""
+
+
+def test_a_changed_friction_is_named_with_its_support(home, capsys):
+    (home / "b.inp").write_text(DECK.replace("+Y MU=0.3", "+Y MU=0.1"))
+    assert leave("diff", "a.inp", "b.inp") == 1
+    assert capsys.readouterr().out == "support 40: +Y MU 0.3 -> 0.1\n"
+
+
+def test_changes_of_decks_are_sorted_by_importance(home, capsys):
+    new = DECK.replace("Line on", "Pipe on").replace("MU=0.3\nSN", "MU=0.1\nSN")
+    (home / "b.inp").write_text(new.replace("R=381", "R=400").replace("SNUBBER  40      X\n", ""))
+    assert leave("diff", "a.inp", "b.inp") == 1
+    heads = [line.split(":")[0] for line in capsys.readouterr().out.splitlines()]
+    assert heads == ["snubber 40", "bend 30", "support 40", "title"]
+
+
+def test_a_changed_load_of_a_result_is_named_in_per_cent(change, capsys):
+    def edit(report):
+        anchor = report["cases"]["OPE"]["supports"][0]
+        anchor["force"] = [1000.0, *anchor["force"][1:]]
+
+    change(edit)
+    Path("b.json").rename("c.json")
+    change(lambda r: (edit(r), r["cases"]["OPE"]["supports"][0]["force"].__setitem__(0, 1120.0)))
+    assert leave("diff", "c.json", "b.json") == 1
+    out = capsys.readouterr().out
+    assert out.startswith("OPE support ")
+    assert "FX 1000 N -> 1120 N (+12 %)" in out
+    assert len(out.splitlines()) == 1
+
+
+def test_a_tolerance_lets_small_changes_pass(change):
+    change(lambda r: scaled(r["cases"]["OPE"]["nodes"]["40"], 1 + 1e-6))
+    assert leave("diff", "a.json", "b.json") == 1
+    assert leave("diff", "--tolerance", "1e-5", "a.json", "b.json") == 0
+
+
+def test_a_case_that_failed_or_went_comes_before_every_number(change, capsys):
+    def edit(report):
+        scaled(report["cases"]["OPE"]["nodes"]["40"], 2.0)
+        report["cases"]["SUS"] = {"converged": False, "cause": "friction cycles"}
+        del report["cases"]["EXP"]
+
+    change(edit)
+    assert leave("diff", "a.json", "b.json") == 1
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0] == "SUS: case solved -> not converged (friction cycles)"
+    assert lines[1] == "case EXP: case present -> absent"
+
+
+def test_a_deck_and_a_result_cannot_be_compared(home, capsys):
+    assert leave("diff", "a.inp", "a.json") == 2
+    assert "two of a kind" in capsys.readouterr().err
+
+
+def test_it_is_a_diff_driver_of_git(home):
+    """As GIT_EXTERNAL_DIFF, in a real repository."""
+    import os
+
+    program = f"{sys.executable} -m trunnion diff --git"
+    own = {**os.environ, "GIT_CONFIG_GLOBAL": os.devnull, "GIT_CONFIG_NOSYSTEM": "1"}
+
+    def git(*arguments: str) -> str:
+        done = subprocess.run(
+            ["git", *arguments], capture_output=True, text=True, check=True, env=own
+        )
+        return done.stdout
+
+    git("init", "-q")
+    git("add", "a.inp")
+    (home / "a.inp").write_text(DECK.replace("+Y MU=0.3", "+Y MU=0.1"))
+    own["GIT_EXTERNAL_DIFF"] = program
+    assert git("diff") == "trunnion diff a.inp\n  support 40: +Y MU 0.3 -> 0.1\n"
+
+
+# ---------------------------------------------------------------------- show
+def test_the_summary_has_every_case_and_no_colour_when_piped(home, capsys):
+    assert leave("show", "a.json") == 0
+    out = capsys.readouterr().out
+    assert "\x1b" not in out
+    rows = [line.split() for line in out.splitlines()[2:]]
+    assert [row[0] for row in rows][:6] == ["SUS", "OPE", "EXP", "HSUS", "EQX", "OCC"]
+
+
+def test_a_node_shows_the_numbers_of_the_file(home, capsys):
+    assert leave("show", "a.json", "--case", "ope", "--node", "40") == 0
+    out = capsys.readouterr().out
+    case = json.loads((home / "a.json").read_bytes())["cases"]["OPE"]
+    rest = next(s for s in case["supports"] if s["id"] == "40")
+    for value in rest["force"]:
+        assert f"{value + 0.0:.1f}".replace("-0.0", "0.0") in out
+    assert f"{1e3 * case['nodes']['40'][0]:.4f}" in out
+    assert any(line.split()[1:2] == ["to"] for line in out.splitlines())
+
+
+def test_a_bend_shows_the_ends_at_its_far_point(home, capsys):
+    assert leave("show", "a.json", "--case", "OPE", "--node", "30") == 0
+    assert capsys.readouterr().out.count("30F-40 from") == 1
+
+
+@pytest.mark.parametrize("wrong", [("--case", "XXX"), ("--node", "XXX")])
+def test_an_unknown_case_or_node_is_refused(home, wrong, capsys):
+    assert leave("show", "a.json", *wrong) == 2
+    assert "XXX" in capsys.readouterr().err
+
+
+def test_colour_is_for_terminals_and_the_file_cannot_steer_one():
+    from trunnion.report.stored import summary_text
+
+    text = summary_text({"title": "a\x1b[2Jb", "cases": {}})
+    assert "\x1b[2J" not in text
