@@ -255,7 +255,9 @@ const DATA = JSON.parse(document.getElementById("data").textContent);
         unit.movement.unit + "<br>turns " + r + " " + unit.rotation.unit);
     }
     const found = [{ type: "scatter3d", mode: "markers", x, y, z, text, hoverinfo: "text",
-      showlegend: false, marker: { size: 2, color: "#1b2430", opacity: 0.5 } }];
+      showlegend: false, marker: n_node > 500
+        ? { size: 6, color: "rgba(27,36,48,0.01)", line: { width: 0 } }
+        : { size: 2, color: "#1b2430", opacity: 0.5 } }];
     if (labelled) {
       const lift = 0.6 * glyph + thick;
       found.push({ type: "scatter3d", mode: "text", x: x.map((v) => v + lift * up[0]),

@@ -148,8 +148,8 @@ def words(
 def _to_and_fro(found: Course, own: list[int], card: int) -> bool:
     """Tell whether a support came back TURNS times to the state that it had left just before."""
     states = [int(found.level[0, card]), *found.level[own, card].tolist()]
-    returns = sum(a == b for a, b in zip(states, states[2:], strict=False))
-    return returns >= TURNS
+    returns = [a for a, b in zip(states, states[2:], strict=False) if a == b]
+    return len(returns) >= TURNS
 
 
 def _partner(found: Course, changes: dict[int, list[int]], card: int) -> int | None:
