@@ -37,13 +37,14 @@ contains
       real(wp), allocatable :: rest(:)
       integer(ip) :: i
 
-      rest = w
+      allocate (rest(size(w)))
+      rest(:) = w
       do i = 1_ip, n
          h(i) = inner(basis(:, i), rest)
-         rest = rest - h(i)*basis(:, i)
+         rest(:) = rest - h(i)*basis(:, i)
       end do
       h(n + 1_ip) = sqrt(inner(rest, rest))
-      if (h(n + 1_ip) > 0.0_wp) rest = rest/h(n + 1_ip)
+      if (h(n + 1_ip) > 0.0_wp) rest(:) = rest/h(n + 1_ip)
       basis(:, n + 1_ip) = rest
    end subroutine orthogonalise
 

@@ -41,9 +41,9 @@ contains
          end do
          node = place(ends(:, e) + 1_ip)
          do j = 1, 12
-            column = 6_ip*node((j + 5)/6) + int(mod(j - 1, 6), ip)
+            column = 6_ip*node(merge(1, 2, j <= 6)) + int(mod(j - 1, 6), ip)
             do i = 1, 12
-               row = 6_ip*node((i + 5)/6) + int(mod(i - 1, 6), ip)
+               row = 6_ip*node(merge(1, 2, i <= 6)) + int(mod(i - 1, 6), ip)
                if (row < column) cycle
                do m = 1, 6
                   call multiply_dd(b(m, i), b_low(m, i), kb(m, j), kb_low(m, j), x, x_low)
