@@ -47,7 +47,7 @@ const DATA = JSON.parse(document.getElementById("data").textContent);
   }
   const size = Math.max(norm(add(high, low, -1)), 1e-6);
   const thick = radius.slice().sort()[Math.floor(n / 2)] || size / 300;
-  const thin = size / 1500;  /* radius below which a pipe would not be seen */
+  const thin = size / 900;  /* radius below which a pipe would not be seen */
 
   const cases = scene.cases.map((c) => {
     const found = { ...c, move: floats(c.move), u: floats(c.u), load: floats(c.load) };
@@ -118,7 +118,7 @@ const DATA = JSON.parse(document.getElementById("data").textContent);
   const spans = scene.spans.slice().sort((a, b) => a - b);
   const bay = spans.length ? spans[Math.floor(spans.length / 2)] || size : size;
   const glyph = Math.max(2.2 * thick, Math.min(size / 75, 0.25 * bay));
-  const reach = Math.min(0.1 * size, 1.5 * bay);
+  const reach = Math.min(0.1 * size, 2.5 * bay);
   const solids = () => ({ x: [], y: [], z: [], i: [], j: [], k: [], facecolor: [] });
   function cone(m, tip, axis, length, wide, colour) {
     const side = aside(axis), other = cross(axis, side), base = m.x.length, sides = 10;
@@ -231,10 +231,13 @@ const DATA = JSON.parse(document.getElementById("data").textContent);
       hoverinfo: "skip", showlegend: false, line: { color: STATE.none, width: 3 } });
     if (arrows.i.length) traces.push({ ...solid, ...arrows }, { type: "scatter3d", mode: "lines",
       ...shaft, hoverinfo: "skip", showlegend: false, line: { color: "#c2185b", width: 4 } });
-    if (marks.x.length) traces.push({ type: "scatter3d", mode: "markers", ...marks,
-      hoverinfo: "text", showlegend: false, marker: { size: 12, color: "rgba(68,84,106,0.01)", line: { width: 0 } } });
+    if (marks.x.length && !MANY) traces.push({ type: "scatter3d", mode: "markers", ...marks,
+      hoverinfo: "text", showlegend: false, marker: { size: 3, color: STATE.none } });
     return traces;
   }
+  /* many nodes: their marks take the pipe's colours and tell of their supports, too */
+  const MANY = n_node > 500, held = new Map();
+  scene.cards.forEach((card, k) => held.set(card.node, [...(held.get(card.node) || []), k]));
   const place2 = (u, i, s) => [s * u[6 * i], s * u[6 * i + 1], s * u[6 * i + 2]];
   function load(c, i) {
     const f = unit.force, m = unit.moment, v = (k) => c.load[6 * i + k];
@@ -243,7 +246,7 @@ const DATA = JSON.parse(document.getElementById("data").textContent);
       " " + m.unit;
   }
 
-  function points(c, s, labelled) {
+  function points(c, s, labelled, pipe) {
     const x = [], y = [], z = [], text = [];
     for (let i = 0; i < n_node; i++) {
       const u = c ? place2(c.u, i, s) : [0, 0, 0];
@@ -253,11 +256,14 @@ const DATA = JSON.parse(document.getElementById("data").textContent);
       const r = [3, 4, 5].map((k) => digits(c.u[6 * i + k] * unit.rotation.factor)).join("  ");
       text.push("<b>node " + escape(scene.labels[i]) + "</b><br>moves " + d + " " +
         unit.movement.unit + "<br>turns " + r + " " + unit.rotation.unit);
+      if (MANY && held.has(i)) text[i] += "<br>" + held.get(i).map((k) =>
+        escape(scene.cards[k].name) + ": " + load(c, k)).join("<br>");
     }
     const found = [{ type: "scatter3d", mode: "markers", x, y, z, text, hoverinfo: "text",
-      showlegend: false, marker: n_node > 500
-        ? { size: 6, color: "rgba(27,36,48,0.01)", line: { width: 0 } }
-        : { size: 2, color: "#1b2430", opacity: 0.5 } }];
+      showlegend: false, marker: MANY
+        ? { size: 1.6, color: scene.node_point.map((p) => pipe.intensity[p * SIDES]),
+          cmin: pipe.cmin, cmax: pipe.cmax, colorscale: pipe.colorscale, showscale: false }
+        : { size: 2.5, color: "#1b2430" } }];
     if (labelled) {
       const lift = 0.6 * glyph + thick;
       found.push({ type: "scatter3d", mode: "text", x: x.map((v) => v + lift * up[0]),
@@ -366,8 +372,9 @@ const DATA = JSON.parse(document.getElementById("data").textContent);
     get("factor").textContent = c ? "\u00d7 " + digits(s) : "";
     const options = { colour: key, supports: get("supports").checked,
       arrows: get("arrows").checked };
-    const traces = [tubes(c, key, s), ...furniture(c, s, options),
-      ...points(c, s, get("names").checked), ...triad()];
+    const pipe = tubes(c, key, s);
+    const traces = [pipe, ...furniture(c, s, options),
+      ...points(c, s, get("names").checked, pipe), ...triad()];
     if (get("ghost").checked && s > 0) traces.push(ghost());
     legend(key);
     const config = { displaylogo: false, responsive: true, displayModeBar: false,

@@ -44,6 +44,7 @@ def scene(results: Results, units: ReportUnits) -> dict[str, object] | None:
         "element": [f"{p.start}-{p.end}" for p in system.parts],
         "type": [part.type for part in system.parts],
         "labels": list(system.labels),
+        "node_point": _node_points(system, lines),
         "spans": np.round(system.length, 6).tolist(),
         "nodes": packed(system.xyz),
         "cards": _cards(system),
@@ -72,6 +73,15 @@ def _parts(system: System, n_case: int) -> int:
     """Parts of a straight, so that all cases together have about POINTS points."""
     room = POINTS // (max(len(system.kind), 1) * max(n_case, 1)) - 1
     return int(np.clip(room, 1, 8))
+
+
+def _node_points(system: System, lines: Lines) -> list[int]:
+    """Point of the lines at each node; 0 where no element ends."""
+    at = np.zeros(len(system.labels), np.intp)
+    at[system.ends[:, 1]] = lines.first[1:] - 1
+    at[system.ends[:, 0]] = lines.first[:-1]
+    found: list[int] = at.tolist()
+    return found
 
 
 def _case(case: CaseResult, lines: Lines) -> dict[str, object]:
