@@ -256,6 +256,20 @@ class State:
     datum_end: F8
 
 
+@frozen(eq=False)
+class Pass:
+    """What the supports answered in one iteration; rounded, for the story that reports tell.
+
+    side, reaction : of contacts; mode, friction, normal : of sliders; as in `State`.
+    """
+
+    side: NDArray[np.int8]
+    reaction: NDArray[np.float32]
+    mode: NDArray[np.int8]
+    friction: NDArray[np.float32]
+    normal: NDArray[np.float32]
+
+
 @frozen
 class Item:
     """One line of a certificate: the value, its limit and where it is worst."""
@@ -382,6 +396,7 @@ class CaseResult:
     frozen: tuple[str, ...] = ()
     warnings: tuple[str, ...] = ()
     history: list[dict[str, object]] = field(default_factory=list)
+    passes: list[Pass] = field(default_factory=list)  # first iterations, not all of large models
     work: dict[str, int] = field(default_factory=dict)
     linear: bool = True  # False: a combination with ABS or of two moduli: no interior points
     frozen_check: tuple[FrozenBreak, ...] = ()  # of a locked case: what its assumption breaks

@@ -83,7 +83,7 @@ def _check_names(deck: Path, also: list[str]) -> None:
     """Refuse before any work what would overwrite the deck or could not be written."""
     from trunnion.report.outputs import missing
 
-    if deck.suffix.lower() in (".out", ".json", ".h5", ".xlsx", ".csv", ".vtu", ".pvd"):
+    if deck.suffix.lower() in (".out", ".json", ".h5", ".xlsx", ".csv", ".html", ".vtu", ".pvd"):
         raise InputError(f"{deck}: a deck must not be called *{deck.suffix}, as the reports are")
     lacking = [said for said in map(missing, also) if said]
     if lacking:

@@ -34,6 +34,7 @@ FURTHER = {
     "h5": "Write <stem>.h5, too (extra hdf5).",
     "xlsx": "Write <stem>.xlsx, too: every table, a sheet each (extra excel).",
     "csv": "Write <stem>_csv/, too: the same tables, a file each.",
+    "html": "Write <stem>.html, too: one page with the model in 3-D, for any browser (extra html).",
     "vtu": "Write <stem>.pvd and <stem>_vtu/, too, for ParaView (extra vtk).",
 }
 

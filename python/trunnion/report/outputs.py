@@ -13,29 +13,32 @@ Files = dict[Path, bytes]
 
 @frozen
 class Output:
-    """One format: the module that makes it, the package that this needs, the extra with that."""
+    """One format: the module that makes it, the packages that this needs, the extra with them."""
 
     module: str
-    package: str = ""
+    packages: tuple[str, ...] = ()
     extra: str = ""
 
 
 OUTPUTS: Mapping[str, Output] = {
-    "h5": Output("trunnion.report.hdf5", "h5py", "hdf5"),
-    "xlsx": Output("trunnion.report.excel", "xlsxwriter", "excel"),
+    "h5": Output("trunnion.report.hdf5", ("h5py",), "hdf5"),
+    "xlsx": Output("trunnion.report.excel", ("xlsxwriter",), "excel"),
     "csv": Output("trunnion.report.csv"),
-    "vtu": Output("trunnion.report.vtu", "pyevtk", "vtk"),
+    "vtu": Output("trunnion.report.vtu", ("pyevtk",), "vtk"),
+    "html": Output("trunnion.report.html", ("plotly", "jinja2"), "html"),
 }
 
 
 def missing(name: str) -> str:
     """Say what is not installed for a format; nothing if all is there."""
     found = OUTPUTS[name]
-    if found.package:
+    if found.packages:
         from importlib.util import find_spec
 
-        if find_spec(found.package) is None:
-            say = f"--{name} needs the package {found.package}"
+        lacking = [package for package in found.packages if find_spec(package) is None]
+        if lacking:
+            what = "the package" if len(lacking) == 1 else "the packages"
+            say = f"--{name} needs {what} {' and '.join(lacking)}"
             return f"{say}: pip install 'trunnion[{found.extra}]'"
     return ""
 

@@ -12,11 +12,9 @@ from tempfile import TemporaryDirectory
 import numpy as np
 from numpy.typing import NDArray
 
-from trunnion.arrays import ARC, F8, SPRING, TAPER, CaseResult, Results, System
-from trunnion.frozen import frozen
+from trunnion.arrays import F8, TAPER, CaseResult, Results
 from trunnion.model import Model
-from trunnion.results.balance import section_forces
-from trunnion.results.interior import places, points
+from trunnion.report.centreline import along, cut
 from trunnion.results.stresses import RIGID as BODIES
 from trunnion.results.stresses import pipe_elements, pipe_stresses
 from trunnion.results.supports import (
@@ -29,8 +27,6 @@ from trunnion.results.supports import (
     solved,
 )
 
-PARTS = 8  # of a straight pipe
-DEGREES = 5.0  # most angle of one part of a bend
 RIGID, REDUCER = 3, 4  # kinds of cells; 0, 1, 2 are those of System.kind
 NO_STATE = -1  # of a restraint in a combination
 
@@ -43,19 +39,6 @@ _COLLECTION = """\
 </VTKFile>
 """
 _ROW = '    <DataSet timestep="{time}" part="{part}" name="{case}" file="{file}"/>\n'
-
-
-@frozen(eq=False)
-class Lines:
-    """Points of the elements one after the other.
-
-    first : (n_elem + 1,) the points of element i are first[i]:first[i + 1].
-    element, fraction : (n,) where each point is, from end 1.
-    """
-
-    first: NDArray[np.intp]
-    element: NDArray[np.intp]
-    fraction: F8
 
 
 def files(results: Results, model: Model, stem: str) -> dict[str, bytes]:
@@ -88,21 +71,10 @@ def _grids(case: CaseResult) -> dict[str, bytes]:
     return found
 
 
-def cut(system: System) -> Lines:
-    """Cut elements into parts: straights into 8, bends by 5 degrees, springs not at all."""
-    count = np.where(system.kind == SPRING, 1, PARTS)
-    turns = np.ceil(np.degrees(system.angle) / DEGREES - 1e-9).astype(int)
-    count = np.where(system.kind == ARC, np.maximum(turns, 2), count)
-    first = np.concatenate([[0], np.cumsum(count + 1)])
-    element = np.repeat(np.arange(len(count)), count + 1)
-    fraction = (np.arange(first[-1]) - first[element]) / count[element]
-    return Lines(first, element, fraction)
-
-
 def _pipes(case: CaseResult) -> bytes:
     """Elements as polylines."""
     system, state, lines = case.system, solved(case), cut(case.system)
-    where, move, section = _along(case, lines)
+    where, move, section = along(case, lines)
     od, wall = system.od[lines.element], system.wall[lines.element]
     stress = np.full(len(od), np.nan)
     piped = np.isin(lines.element, pipe_elements(system))
@@ -133,34 +105,6 @@ def _pipes(case: CaseResult) -> bytes:
         "wall": system.wall,
     }
     return _grid(where, lines.first[1:], cells, data)
-
-
-def _along(case: CaseResult, lines: Lines) -> tuple[F8, F8, F8]:
-    """Place (n, 3), movement (n, 6) and section forces (n, 6) of the points.
-
-    Where a case has no interior points (sizes without sign, springs) the ends are what they are
-    and the points between them lie on the straight line of numbers from one to the other.
-    """
-    system, state = case.system, solved(case)
-    e, t = lines.element, lines.fraction
-    start, end = system.ends[e, 0], system.ends[e, 1]
-    s = t[:, None]
-    where = (1.0 - s) * system.xyz[start] + s * system.xyz[end]
-    u = state.u + state.u_low
-    move = (1.0 - s) * u[start] + s * u[end]
-    force = section_forces(case)
-    section = (1.0 - s) * force[e, 0] + s * force[e, 1]
-    inner = system.kind[e] != SPRING
-    if case.linear and case.loads is not None and inner.any():
-        found = points(case, e[inner], t[inner])
-        where[inner], move[inner], section[inner] = (
-            found.xyz,
-            found.displacement,
-            found.section_force,
-        )
-    elif inner.any():
-        where[inner] = places(system, e[inner], t[inner])
-    return where, move, section
 
 
 def _restraints(case: CaseResult) -> bytes:

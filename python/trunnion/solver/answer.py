@@ -67,6 +67,7 @@ def answer(
         converged=False,
         warnings=question.warnings,
         history=history.records,
+        passes=history.passes,
     )
     start = origin or at_rest(structure)
     try:

@@ -1,10 +1,13 @@
 """The convergence story of one case, an entry an iteration."""
 
-from trunnion.arrays import System
+import numpy as np
+
+from trunnion.arrays import Pass, System
 from trunnion.solver.ledger import Ledger
 from trunnion.solver.quantities import Response
 
 NAMED = 12  # supports named in one entry; the rest are counted
+KEPT = 1_000_000  # numbers of supports kept of one case for reports that tell its story
 
 
 class History:
@@ -13,6 +16,8 @@ class History:
     def __init__(self, system: System, ledger: Ledger) -> None:
         self.system, self.ledger = system, ledger
         self.records: list[dict[str, object]] = []
+        self.passes: list[Pass] = []
+        self.room = KEPT
         self.jumps = 0  # Aitken jumps of the status iteration
         self.frozen: list[str] = []
         self.notes: list[str] = []  # warnings about how the case was solved
@@ -27,6 +32,9 @@ class History:
         switched = sliders.card[(before.mode != after.mode)[:m]].tolist()
         changed = sorted({*turned, *switched})
         self.ledger.add(iterations=1)
+        if len(self.records) == 0:
+            self._keep(before)
+        self._keep(after)
         self.records.append(
             {
                 "iteration": len(self.records) + 1,
@@ -37,6 +45,22 @@ class History:
                 "changed": [self.system.cards[i].name for i in changed[:NAMED]],
             }
         )
+
+    def _keep(self, after: Response) -> None:
+        """Keep what the supports answered, as long as there is room: nothing is computed for it."""
+        n, m = len(self.system.contacts.node), len(self.system.sliders.node)
+        self.room -= 4 * n + 4 * m
+        if self.room >= 0:
+            single = np.float32
+            self.passes.append(
+                Pass(
+                    after.side[:n].astype(np.int8),
+                    after.reaction[:n].astype(single),
+                    after.mode[:m].astype(np.int8),
+                    after.friction[:m].astype(single),
+                    after.normal[:m].astype(single),
+                )
+            )
 
     def freeze(self, card: int) -> None:
         """Note that a support is held engaged from now on."""

@@ -1,0 +1,197 @@
+"""The convergence story of each support: what it did in every iteration, and in words why."""
+
+from math import atan2, degrees
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trunnion.arrays import F8, OPEN, CaseResult, Results, System
+from trunnion.frozen import frozen
+from trunnion.report.units import ReportUnits
+from trunnion.results.supports import STATES
+
+SUPPORTS = 40  # told of one case, the most restless
+ROWS = 200  # iterations of one support
+TURNS = 3  # returns to the state before the last, from which a support goes to and fro
+SHARE = 0.05  # of the normal force: a smaller exchange explains nothing
+
+
+@frozen(eq=False)
+class Course:
+    """What all supports did: rows are the start and the iterations, columns support cards.
+
+    level : index into STATES.  normal : [N].  used : F / (mu N), NaN without friction.
+    angle : of sliding in the support's plane [deg]; NaN where nothing rubs.
+    """
+
+    level: NDArray[np.int8]
+    normal: F8
+    used: F8
+    angle: F8
+
+
+def stories(results: Results, units: ReportUnits) -> list[dict[str, object]]:
+    """Give the story of every case that was iterated."""
+    return [_story(case, units) for case in results.cases.values() if case.history]
+
+
+def course(case: CaseResult) -> Course:
+    """Gather the iterations by support card: its contacts, or its most loaded slider."""
+    system, n_card, n = case.system, len(case.system.cards), len(case.passes)
+    contacts, sliders = system.contacts, system.sliders
+    level = np.zeros((n, n_card), np.int8)
+    normal, used, angle = (np.zeros((n, n_card)) for _ in range(3))
+    used[:], angle[:] = np.nan, np.nan
+    mu = sliders.mu * (case.loads.mux if case.loads is not None else 1.0)
+    pushes = ~contacts.rotational
+    for i, at in enumerate(case.passes):
+        np.maximum.at(level[i], contacts.card, (at.side != OPEN).astype(np.int8))
+        np.maximum.at(level[i], sliders.card, at.mode)
+        total = np.zeros((n_card, 3))
+        np.add.at(total, contacts.card[pushes], at.reaction[pushes])
+        normal[i] = np.linalg.norm(total, axis=1)
+        rising = np.argsort(at.normal, kind="stable")  # the last one of a card stands
+        normal[i, sliders.card[rising]] = at.normal[rising]
+        size, capacity = np.linalg.norm(at.friction, axis=1), mu * at.normal
+        rubs = rising[capacity[rising] > 0.0]
+        used[i, sliders.card[rubs]] = size[rubs] / capacity[rubs]
+        part = -np.einsum("nij,nj->ni", sliders.basis, at.friction)
+        moving = rubs[size[rubs] > 1e-6 * capacity[rubs]]
+        turned = [degrees(atan2(y, x)) for x, y in part[moving].tolist()]
+        angle[i, sliders.card[moving]] = turned
+    return Course(level, normal, used, angle)
+
+
+def _story(case: CaseResult, units: ReportUnits) -> dict[str, object]:
+    kept = max(len(case.passes) - 1, 0)
+    found = course(case)
+    changes = {i: _changes(found.level[:, i]) for i in range(found.level.shape[1])}
+    restless = sorted((i for i in changes if changes[i]), key=lambda i: (-len(changes[i]), i))
+    note = f"{len(restless)} of {len(case.system.cards)} supports changed state"
+    if kept < len(case.history):
+        note += f"; supports are told of the first {kept} of {len(case.history)} iterations"
+    if len(restless) > SUPPORTS:
+        note += f"; the {SUPPORTS} that did so most often are told"
+    return {
+        "case": case.name,
+        "note": note,
+        "force": units.force.unit,
+        "passes": [
+            {key: _plain(record.get(key)) for key in ("what", "residual", "step", "n_changed")}
+            for record in case.history
+        ],
+        "supports": [
+            {
+                "name": case.system.cards[i].name,
+                "axis": _axis(case.system, i),
+                "words": words(case.system, found, changes, i, units),
+                "rows": _rows(found, i, units),
+            }
+            for i in restless[:SUPPORTS]
+        ],
+    }
+
+
+def _changes(level: NDArray[np.int8]) -> list[int]:
+    """Iterations whose state is not that of the one before; 0 is the start."""
+    return [i + 1 for i in np.flatnonzero(np.diff(level)).tolist()]
+
+
+def _axis(system: System, card: int) -> str:
+    """Direction from which angles of sliding count, as far as the card has a slider."""
+    own = np.flatnonzero(system.sliders.card == card)
+    if not len(own):
+        return ""
+    return "({:.2g}, {:.2g}, {:.2g})".format(*(system.sliders.basis[own[-1], 0] + 0.0).tolist())
+
+
+def _rows(found: Course, card: int, units: ReportUnits) -> list[list[object]]:
+    """Iteration, state, N, F / (mu N) and angle; the middle of a long story is left out."""
+    n = len(found.level)
+    shown = list(range(n)) if n <= ROWS else [*range(ROWS // 2), *range(n - ROWS // 2, n)]
+    return [
+        [
+            i,
+            STATES[found.level[i, card]],
+            _plain(round(float(found.normal[i, card]) * units.force.factor, 6)),
+            _plain(round(float(found.used[i, card]), 4)),
+            _plain(round(float(found.angle[i, card]), 2)),
+        ]
+        for i in shown
+    ]
+
+
+def words(
+    system: System, found: Course, changes: dict[int, list[int]], card: int, units: ReportUnits
+) -> str:
+    """Tell in words what a support did, with whom it alternates, and why."""
+    own, level = changes[card], found.level[:, card]
+    first, last = STATES[level[0]], STATES[level[-1]]
+    if len(own) <= 2 * TURNS:
+        path = [f"{STATES[level[i]]} at iteration {i}" for i in own[:-1]]
+        text = ", ".join([f"{first} at first", *path, f"{last} from iteration {own[-1]} on."])
+    else:
+        text = f"{first} at first, changed {len(own)} times, {last} from iteration {own[-1]} on."
+    text = text[0].upper() + text[1:]
+    if not _to_and_fro(found, own, card):
+        return text
+    text += " It went to and fro."
+    partner = _partner(found, changes, card)
+    if partner is not None:
+        return f"{text} {_shared(system, found, own, card, partner, units)}"
+    near = found.used[own, card]
+    if np.isfinite(near).all() and near.min() > 0.9:
+        text += f" Each time its friction was at {100 * near.min():.0f} % of mu N or more."
+    return text
+
+
+def _to_and_fro(found: Course, own: list[int], card: int) -> bool:
+    """Tell whether a support came back TURNS times to the state that it had left just before."""
+    states = [int(found.level[0, card]), *found.level[own, card].tolist()]
+    returns = [a for a, b in zip(states, states[2:], strict=False) if a == b]
+    return len(returns) >= TURNS
+
+
+def _partner(found: Course, changes: dict[int, list[int]], card: int) -> int | None:
+    """Find the other restless support that changes in most of the same iterations."""
+    own = set(changes[card])
+    common = {
+        i: len(own & set(at))
+        for i, at in changes.items()
+        if i != card and _to_and_fro(found, at, i)
+    }
+    best = max(common, key=lambda i: (common[i], -i), default=None)
+    if best is None or common[best] < max(TURNS, len(own) // 2 + 1):
+        return None
+    return best
+
+
+def _shared(
+    system: System, found: Course, own: list[int], card: int, partner: int, units: ReportUnits
+) -> str:
+    """Say how two supports change together, and why as far as their normal forces show it.
+
+    They share a load if, in most of the changes, one takes what the other loses, and if that is
+    more than SHARE of the largest normal force of both.
+    """
+    at = np.array(own)
+    mine, other = (found.normal[at, i] - found.normal[at - 1, i] for i in (card, partner))
+    name, q = system.cards[partner].name, units.force
+    text = f"This one and {name} change in the same iterations"
+    floor = SHARE * np.array([found.normal[:, i].max() for i in (card, partner)])
+    exchange = (mine * other < 0.0) & (np.abs(mine) > floor[0]) & (np.abs(other) > floor[1])
+    if 2 * exchange.sum() <= len(own):
+        return f"{text}."
+    most = [float(np.abs(x[exchange]).max()) for x in (mine, other)]
+    shown = " and ".join(q.showing(x).text(x) for x in most)
+    return (
+        f"{text}: these two alternate because they share a load, and what the normal force of one "
+        f"loses the other takes (up to {shown} {q.unit})."
+    )
+
+
+def _plain(value: object) -> object:
+    """A number that JSON has; None for what is not finite."""
+    if isinstance(value, float | np.floating):
+        return float(value) if np.isfinite(value) else None
+    return value
