@@ -1,6 +1,7 @@
 """Digits that are lost are told, and a factor that has too few of them is replaced."""
 
 from math import pi
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -83,3 +84,11 @@ def test_the_factor_in_double_double_is_that_of_the_matrix():
 def test_a_tame_case_never_asks_for_more_digits():
     case = solve("PIPE 10 20 DX=2\nSUPPORT 20 +Y MU=0.3\nCASE A = W + T1\n")
     assert "extended" not in case.work
+
+
+def test_an_undetermined_motion_is_told_where_double_double_takes_too_long(monkeypatch):
+    """The factor in doubles is at hand again after the larger one was found too dear."""
+    monkeypatch.setattr("trunnion.solver.extended.MOST", 0)
+    deck = Path(__file__).parents[2] / "models" / "floating_rests.inp"
+    for case in trunnion.solve(trunnion.read(deck)).cases.values():
+        assert case.certificate.passed

@@ -8,7 +8,7 @@ from trunnion.arrays import F8, CaseResult, Certificate, Loads, System
 from trunnion.certificate import certify
 from trunnion.errors import ModelError, Problem
 from trunnion.solver.causes import explain
-from trunnion.solver.digits import FREEDOMS, is_lossy
+from trunnion.solver.digits import FREEDOMS, has_stiffness, is_lossy
 from trunnion.solver.friction import Solved
 from trunnion.solver.history import History
 from trunnion.solver.mechanism import null_motions, structural_motions
@@ -111,24 +111,10 @@ def refuse_mechanisms(structure: Structure) -> None:
     if structure.checked or not (structure.shifted or poor):
         return
     motions = structural_motions(structure)
-    if motions and not holds_extended(structure):
+    every = structure.closed_tangent, structure.stuck_tangent
+    if motions and not has_stiffness(structure, *every):
         raise ModelError([Problem("structure", motion.text) for motion in motions])
     structure.checked = True  # a session may ask a refused structure again
-
-
-def holds_extended(structure: Structure) -> bool:
-    """Tell whether everything closed and stuck is positive definite in double-double.
-
-    Doubles take very soft ways of a structure with very stiff ones for no stiffness at all.
-    """
-    before = structure.extended is not None
-    if not structure.extend(True):
-        return False
-    try:
-        sound = structure.factorise(structure.closed_tangent, structure.stuck_tangent)
-        return sound and structure.rcond > TINY_PIVOT
-    finally:
-        structure.extend(before)
 
 
 def _solve(

@@ -44,12 +44,26 @@ def _is_singular(structure: Structure) -> bool:
     """
     held = structure.held
     assert held is not None
-    if structure.extended is not None or not structure.extend(True):
+    if structure.extended is not None:
         return True
-    sound = structure.factorise(held[0], held[1]) and structure.rcond > TINY_PIVOT
-    structure.extend(False)
+    found = has_stiffness(structure, held[0], held[1])
     structure.factorise(*held)
-    return not sound
+    return found is not True
+
+
+def has_stiffness(structure: Structure, tangent: F8, slider_tangent: F8) -> bool | None:
+    """Tell whether tangents are positive definite in 32 digits; None where that takes too long.
+
+    Doubles take very soft ways of a structure with very stiff ones for no stiffness at all.  The
+    factor at hand is gone afterwards.
+    """
+    before = structure.extended is not None
+    if not structure.extend(True):
+        return None
+    try:
+        return structure.factorise(tangent, slider_tangent) and structure.rcond > TINY_PIVOT
+    finally:
+        structure.extend(before)
 
 
 def digits_left(
