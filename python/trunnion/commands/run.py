@@ -24,6 +24,8 @@ from trunnion.commands.shared import (
 if TYPE_CHECKING:
     from trunnion.formats.options import Options
 
+REPORTS = (".out", ".json", ".h5", ".xlsx", ".csv", ".html", ".png", ".vtu", ".pvd")
+
 
 @click.command()
 @DECK
@@ -73,9 +75,12 @@ def run(
 
 
 def _shown(files: list[Path], folder: Path) -> list[str]:
-    """Name the files; those in a folder of their own by that folder."""
+    """Name the files; those in a folder of their own by that folder, pictures together."""
     inner = [file.parent for file in files if file.parent != folder]
-    alone = [str(file) for file in files if file.parent == folder]
+    pictures = [file for file in files if file.suffix == ".png"]
+    alone = [str(file) for file in files if file.parent == folder and file not in pictures]
+    if pictures:
+        alone.append(f"{folder / files[0].stem}.*.png ({len(pictures)} pictures)")
     return alone + [f"{place}/ ({inner.count(place)} files)" for place in dict.fromkeys(inner)]
 
 
@@ -83,7 +88,7 @@ def _check_names(deck: Path, also: list[str]) -> None:
     """Refuse before any work what would overwrite the deck or could not be written."""
     from trunnion.report.outputs import missing
 
-    if deck.suffix.lower() in (".out", ".json", ".h5", ".xlsx", ".csv", ".html", ".vtu", ".pvd"):
+    if deck.suffix.lower() in REPORTS:
         raise InputError(f"{deck}: a deck must not be called *{deck.suffix}, as the reports are")
     lacking = [said for said in map(missing, also) if said]
     if lacking:

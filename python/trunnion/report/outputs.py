@@ -25,6 +25,7 @@ OUTPUTS: Mapping[str, Output] = {
     "xlsx": Output("trunnion.report.excel", ("xlsxwriter",), "excel"),
     "csv": Output("trunnion.report.csv"),
     "vtu": Output("trunnion.report.vtu", ("pyevtk",), "vtk"),
+    "png": Output("trunnion.report.plots", ("matplotlib",), "plot"),
     "html": Output("trunnion.report.html", ("plotly", "jinja2"), "html"),
 }
 
