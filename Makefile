@@ -3,6 +3,7 @@
 #   make test     every test                        (make test ARGS="-k friction -x")
 #   make lint     ruff, mypy, fortitude
 #   make stress   thousands of extreme scenes    (make stress N=20000; goes on where it stopped)
+#   make gallery  pictures of docs/gallery.md, by the commands that stand in it
 #   make bench    time, error and memory, peers, sweeps: tables and pictures in build/bench
 #                 (bench-quick, bench-docs, bench-million, bench-peers; OUT=folder ONLY="racks whole")
 BIN := .venv/bin
@@ -20,7 +21,7 @@ ONLY :=
 ARGS :=
 N := 20000
 
-.PHONY: demo test stress lint debug-test build clean
+.PHONY: demo test stress gallery lint debug-test build clean
 .PHONY: bench bench-quick bench-docs bench-million bench-peers
 
 demo: build
@@ -36,6 +37,9 @@ test: build
 
 stress: build
 	@$(BIN)/python tests/stress/long.py $(N) build/stress
+
+gallery: build
+	@$(BIN)/python docs/gallery.py
 
 lint: $(READY)
 	@failed=0; for check in "ruff check ." "ruff format --check ." mypy "fortitude check fortran"; do \

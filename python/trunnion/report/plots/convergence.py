@@ -161,7 +161,7 @@ def _panel(axes: Axes, one: Story, limits: tuple[float, float]) -> None:
     """Draw the iterations of one case, coloured by their phase."""
     n = np.arange(1, len(one.value) + 1)
     shown = np.maximum(one.value, LEAST)
-    axes.set_yscale("log")
+    _dress(axes, limits, len(n))
     axes.plot(n, shown, color=PALE, lw=1.0, zorder=1)
     small = 4.5 if len(n) < 60 else 2.5
     for phase in dict.fromkeys(one.phase):
@@ -184,19 +184,17 @@ def _panel(axes: Axes, one: Story, limits: tuple[float, float]) -> None:
             color=STATES["slip"].colour, fontweight="bold", fontsize=NORMAL,
         )  # fmt: skip
     changes = axes.twinx()
-    changes.bar(n, one.changed, width=0.8, color="#e3e7ec", zorder=0, gid="changes")
     changes.set_ylim(0, 3.0 * max(float(one.changed.max(initial=0.0)), 1.0))
+    changes.bar(n, one.changed, width=0.8, color="#e3e7ec", zorder=0, gid="changes")
     changes.yaxis.set_major_locator(NullLocator())
     for side in ("top", "right", "left"):
         changes.spines[side].set_visible(False)
     axes.set_zorder(changes.get_zorder() + 1)
     axes.patch.set_visible(False)
-    _dress(axes, limits, len(n))
 
 
 def _dress(axes: Axes, limits: tuple[float, float], n: int) -> None:
-    axes.set_ylim(*limits)
-    axes.set_xlim(0.3, n + max(1.7, 0.06 * n))
+    axes.set(yscale="log", ylim=limits, xlim=(0.3, n + max(1.7, 0.06 * n)))
     axes.yaxis.set_major_locator(LogLocator(numticks=7))
     axes.yaxis.set_minor_locator(NullLocator())
     axes.yaxis.set_major_formatter(FuncFormatter(power))

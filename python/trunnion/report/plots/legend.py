@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
-from math import ceil
 
 import numpy as np
 from matplotlib.colors import to_rgba
@@ -10,7 +9,7 @@ from matplotlib.figure import Figure
 
 from trunnion.report.plots.drawing import Frame
 from trunnion.report.plots.glyphs import Glyph, Stand, glyphs, paint_glyphs
-from trunnion.report.plots.page import NORMAL, SMALL, area, fitted, put
+from trunnion.report.plots.page import NORMAL, SMALL, area, extent, fitted, put
 from trunnion.report.plots.paint import Paint, draw
 from trunnion.report.plots.palette import GREY, PIPE, RIM, Look
 from trunnion.report.plots.scene import Subject
@@ -109,12 +108,17 @@ def _piece(paint: Paint, frame: Frame, at: np.ndarray, axis: np.ndarray, radius:
 def states(
     figure: Figure, x: float, y: float, room: float, looks: Sequence[tuple[Look, int]]
 ) -> float:
-    """List states with their marks and how many restraints are in each, three in a row."""
-    for i, (look, count) in enumerate(looks):
-        at, low = x + (i % 3) * room / 3.0, y - (i // 3) * 0.24 - 0.1
-        mark(figure, at + 0.1, low, look)
-        put(figure, at + 0.26, low, f"{look.text} ({count})", middle=True)
-    return y - 0.24 * ceil(len(looks) / 3)
+    """List states with their marks and how many restraints are in each, as many in a row as fit."""
+    at = x
+    for look, count in looks:
+        text = f"{look.text} ({count})"
+        width = 0.26 + extent(text, NORMAL)[0] / 72.0
+        if at > x and at + width > x + room:
+            at, y = x, y - 0.24
+        mark(figure, at + 0.1, y - 0.1, look)
+        put(figure, at + 0.26, y - 0.1, text, middle=True)
+        at += width + 0.25
+    return y - 0.24
 
 
 def mark(figure: Figure, x: float, y: float, look: Look, size: float = 7.0) -> None:

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from trunnion.arrays import F8, SPRING, ModeSet
 from trunnion.report.plots.convergence import across
 from trunnion.report.plots.drawing import lone_triad
-from trunnion.report.plots.page import EDGE, FOOT, NORMAL, TOP, WIDTH, page, put
+from trunnion.report.plots.page import EDGE, FOOT, NORMAL, SMALL, TOP, WIDTH, page, put
 from trunnion.report.plots.paint import Paint, draw
 from trunnion.report.plots.palette import FIELD, GHOST, PALE
 from trunnion.report.plots.pipe import Course, paint_pipes, plain_faces
@@ -47,7 +47,7 @@ def mode_shapes(found: Subject, modes: ModeSet, title: str) -> Figure:
         text = f"mode {i + 1}:  {modes.frequency[i]:.4g} Hz"
         put(figure, x + 0.05, y + PANEL - 0.28, text, size=NORMAL, bold=True)
         text = "   ".join(f"{c} {share[i, k]:.1f} %" for k, c in enumerate("XYZ"))
-        put(figure, x + 0.05, y + PANEL - 0.46, f"effective mass  {text}", size=8.0)
+        put(figure, x + 0.05, y + PANEL - 0.46, f"effective mass  {text}", size=SMALL)
     lone_triad(figure, EDGE, FOOT, own.view, own.system.up, own.north)
     return figure
 

@@ -19,12 +19,12 @@ class Look(NamedTuple):
 
 
 STATES: Mapping[str, Look] = {
-    "open": Look("open", "#6b7683", "o", False),
+    "open": Look("open", "#555e68", "o", False),
     "engaged": Look("engaged", "#0072b2", "o"),
     "stick": Look("stick", "#009e73", "s"),
     "slip": Look("slip", "#d55e00", "^"),
-    "free": Look("snubber free", "#8a6fa8", "D", False),
-    "locked": Look("snubber locked", "#5b2a86", "D"),
+    "free": Look("snubber free", "#b58fd0", "D", False),
+    "locked": Look("snubber locked", "#3f1a5e", "D"),
 }
 NO_STATE = Look("restraint", "#44546a", "o")
 
