@@ -21,12 +21,14 @@ class ElementErrors:
     """Relative errors (n_elem,) of balance and law, and what the law is measured against.
 
     own : (2, n_elem) largest deformation, by the displacements or by the forces [m, rad].
+    across : (2,) the largest if the end forces were all across [m, rad].
     length, angle : largest denominators of the law [m, rad].
     """
 
     balance: F8
     law: F8
     own: F8
+    across: F8
     length: float
     angle: float
 
@@ -35,7 +37,7 @@ def element_errors(system: System, loads: Loads, state: State, scale: Scale) -> 
     """Check every element, in blocks that stay in the processor's cache."""
     count = len(system.kind)
     if not count:
-        return ElementErrors(np.zeros(0), np.zeros(0), np.zeros((2, 0)), 1.0, 1.0)
+        return ElementErrors(np.zeros(0), np.zeros(0), np.zeros((2, 0)), np.zeros(2), 1.0, 1.0)
     parts = [
         _block(*cut(system, loads, state, slice(at, at + BLOCK)), scale)
         for at in range(0, count, BLOCK)
@@ -49,9 +51,9 @@ def element_errors(system: System, loads: Loads, state: State, scale: Scale) -> 
     bent = 1e-5 * across
     law = np.maximum(wrong[0] / np.maximum(length, bent[0]), wrong[1] / np.maximum(angle, bent[1]))
     law = np.maximum(law, wrong[2])
-    most = bent.max(axis=1)
-    length, angle = max(length, float(most[0])), max(angle, float(most[1]))
-    return ElementErrors(np.concatenate(balances), law, own, length, angle)
+    most = across.max(axis=1)
+    length, angle = max(length, 1e-5 * float(most[0])), max(angle, 1e-5 * float(most[1]))
+    return ElementErrors(np.concatenate(balances), law, own, most, length, angle)
 
 
 def cut(system: System, loads: Loads, state: State, b: slice) -> tuple[System, Loads, State]:

@@ -76,17 +76,20 @@ def part(
     certificate, scale, found = examined
     end = np.array(state.end_force.reshape(-1, 6).T, order="C")
     push = np.abs(state.reaction).max(axis=1, initial=0.0)
-    force = max(largest(end[:3]), largest(push), largest(loads.nodal), scale.force)
-    moment = max(largest(end[3:]), scale.moment) + largest(system.length) * force
-    own = {"length": scale.length, "angle": scale.angle}
-    most = {"force": force, "moment": moment, **own}
-    most |= {"stretch": largest(found.own[0]), "swing": largest(found.own[1])}
-    size = {"force": scale.force, "moment": scale.moment, **own}
+    force = max(largest(end[:3]), largest(push), largest(loads.nodal))
+    force = max(force, largest(loads.dist * system.length[:, None]))
+    moment = largest(end[3:]) + largest(system.length) * force
+    moved = np.array(state.u.T, order="C")
+    most = {"force": force, "moment": moment}
+    most |= {"length": largest(moved[:3]), "angle": largest(moved[3:])}
+    across, turned = np.maximum(found.across, found.own.max(axis=1))
+    most |= {"stretch": float(across), "swing": float(turned)}
+    size = {"force": scale.force, "moment": scale.moment}
+    size |= {"length": scale.length, "angle": scale.angle}
     size |= dict(zip(_CORRECTED, solver, strict=True))
     size |= {"stretch": found.length, "swing": found.angle}
     stiff = np.where(system.rigidity[:, 0] > 0.0, system.rigidity[:, 0], np.inf)
     turning = system.contacts.rotational
-    moved = np.array(state.u.T, order="C")
     return Part(
         certificate,
         size,
