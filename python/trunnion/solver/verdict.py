@@ -18,6 +18,7 @@ from trunnion.solver.structure import Structure
 
 REFINEMENTS = 8
 SHARP = 1e-13  # next correction that ends the refinement, relative
+BALANCED = 1e-12  # out-of-balance force that does, too, of the largest support force
 CHORD = 1e-4  # difference of slider tangents for which the factor at hand will do
 NOTHING = 1e-6  # a displacement that the penalty effect does not speak of [m]
 
@@ -94,7 +95,8 @@ def report_numbers(
             left = corrections(structure, p, point, response, then)
             # a reaction is a difference of displacements: it may lag behind them by one pass
             better = any(new < old for new, old in zip(left, best, strict=True))
-            if not better or max(left) <= SHARP or i == REFINEMENTS - 1:
+            fine = max(left) <= SHARP and unbalance(structure, r, response) <= BALANCED
+            if not better or fine or i == REFINEMENTS - 1:
                 break
             best = left
             point.become(trial)
@@ -142,6 +144,15 @@ def corrections(
     force, moment = support_sizes(structure, before.reaction)
     push, turn = _halves(structure, after.reaction - before.reaction)
     return du / max(u, 1e-300), max(push / force, turn / moment, _largest(rubbed) / force)
+
+
+def unbalance(structure: Structure, r: F8, response: Response) -> float:
+    """Out-of-balance force relative to the largest support force; 0 without supports' forces."""
+    force, moment = _halves(structure, response.reaction)
+    lever = max(moment, 0.01 * force)
+    if force == 0.0:
+        return 0.0
+    return max(_largest(r[:, :3]) / force, _largest(r[:, 3:]) / lever)
 
 
 def support_sizes(structure: Structure, reaction: F8) -> tuple[float, float]:
