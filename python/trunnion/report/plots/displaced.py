@@ -15,8 +15,8 @@ from trunnion.report.plots.glyphs import glyphs, stand
 from trunnion.report.plots.labels import Space
 from trunnion.report.plots.page import EDGE, FOOT, HEIGHT, NORMAL, TOP, WIDTH, area, certified, page
 from trunnion.report.plots.paint import Paint, draw
-from trunnion.report.plots.palette import FIELD, GHOST, INK, PALE, Look
-from trunnion.report.plots.pipe import paint_pipes, plain_faces
+from trunnion.report.plots.palette import FIELD, GHOST, INK, PALE, PAPER, Look
+from trunnion.report.plots.pipe import half_widths, paint_pipes, plain_faces
 from trunnion.report.plots.scene import (
     Subject,
     block_pipes,
@@ -110,7 +110,7 @@ def displaced(
         )
     space = occupied(frame, found, at, bodies)
     block_pipes(space, frame, found, course.at)
-    _mark_largest(frame, space, at, m)
+    _mark_largest(frame, space, at, course.radius, m)
     held = card_nodes(system)
     order, bold = label_order(system, held), set(held)
     label_nodes(
@@ -159,12 +159,17 @@ def _where(found: Subject, point: int) -> str:
     return part.start if t == 0.0 else part.end if t == 1.0 else f"{part.start}-{part.end}"
 
 
-def _mark_largest(frame: Frame, space: Space, at: F8, m: Movement) -> None:
-    """Put a ring around the point that moves most."""
+def _mark_largest(frame: Frame, space: Space, at: F8, radius: F8, m: Movement) -> None:
+    """Put a ring around the point that moves most, wider than the pipe."""
     if not len(m.size) or m.size.max() == 0.0:
         return
-    flat = frame.flat(at[int(m.size.argmax())][None])
-    x, y = flat[0]
-    a, b = frame.points(flat)[0].tolist()
-    space.box(a, b, 14.0, 14.0)
-    frame.axes.plot(x, y, "o", ms=11, mfc="none", mec=INK, mew=1.2, zorder=6, gid="largest")
+    i = int(m.size.argmax())
+    flat = frame.flat(at[i][None])
+    wide = max(11.0, 2.0 * float(half_widths(frame, radius)[i]) / frame.scale + 6.0)
+    for colour, thick in ((PAPER, 3.0), (INK, 1.3)):
+        frame.axes.plot(
+            *flat.T, "o", ms=wide, mfc="none", mec=colour, mew=thick, zorder=6,
+            gid="largest" if colour == INK else None,
+        )  # fmt: skip
+    x, y = frame.points(flat)[0].tolist()
+    space.box(x, y, wide + 3.0, wide + 3.0)
