@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 @click.option(
     "--allow",
     type=click.FloatRange(0.0, 1.0),
-    help="Largest difference, of the largest value of its kind.  [1e-6; CalculiX: 1e-5]",
+    help="Largest difference, of the largest value of its kind.  [1e-6; CalculiX: 2e-6]",
 )
 @click.option(
     "-o", "folder", type=click.Path(path_type=Path), help="Keep the other program's files here."
@@ -95,7 +95,11 @@ def _compare(
     except ProgramError as error:
         say(str(error))
         return FAILED
-    return SOLVED if _judge(own, found, NAMES[program], allowed) else FAILED
+    good = _judge(own, found, NAMES[program], allowed)
+    for case in () if good else job.scene.cases:
+        for warning in case.warnings:
+            say(f"{case.name}: {warning}")
+    return SOLVED if good else FAILED
 
 
 def _judge(own: dict[str, Any], found: dict[str, Any], name: str, allowed: float) -> bool:
@@ -110,6 +114,6 @@ def _judge(own: dict[str, Any], found: dict[str, Any], name: str, allowed: float
         say(f"{case}: not confirmed: {why}")
     good = agrees(rows, held, allowed) and not without
     count = len({row.case for row in rows})
-    verdict = f"{count} cases confirmed by" if good else "NOT confirmed by"
-    say(f"{verdict} {found['program']}, to {allowed:g} of the largest value of each kind")
+    verdict = f"{count} case{'s' * (count > 1)} confirmed" if good else "NOT confirmed"
+    say(f"{verdict} by {found['program']}, to {allowed:g} of the largest value of each kind")
     return good

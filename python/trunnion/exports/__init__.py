@@ -78,7 +78,9 @@ def _notes(model: Model, scene: Scene) -> list[str]:
             counts = ", ".join(f"{modes.count(m)} {m}" for m in ("stick", "slip", "open"))
             notes.append(f"{case.name}: friction is held as Trunnion found it ({counts})")
         if found.rings:
-            notes.append(f"{case.name}: {len(found.rings)} gaps all round a pipe are held")
+            n = len(found.rings)
+            what = "1 gap all round a pipe is" if n == 1 else f"{n} gaps all round pipes are"
+            notes.append(f"{case.name}: {what} held")
     by_name = {case.name: case for case in model.cases}
     for case in scene.cases:
         card = by_name.get(case.name)

@@ -5,7 +5,7 @@ Both sides have the layout of a JSON report: {"cases": {name: {"nodes": ..., "su
 """
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 TOLERANCE = 1e-6
@@ -40,7 +40,8 @@ def differences(own: Mapping[str, Any], other: Mapping[str, Any]) -> list[Differ
             continue
         for kind, (member, *units) in KINDS.items():
             if member in theirs:
-                found += _worst(name, kind, units, _rows(ours[member]), _rows(theirs[member]))
+                both = _rows(ours[member]), _rows(theirs[member])
+                found.append(_worst(name, kind, units, *both))
     return found
 
 
@@ -78,25 +79,25 @@ def _worst(
     units: Sequence[str],
     ours: Mapping[str, Sequence[float]],
     theirs: Mapping[str, Sequence[float]],
-) -> Iterator[Difference]:
-    """Yield the worst of the translations (forces) and of the rotations (moments)."""
+) -> Difference:
+    """Give the worst of the translations (forces) and of the rotations (moments)."""
     size = [
         max((abs(x) for row in ours.values() for x in row[half : half + 3]), default=0.0)
         for half in (0, 3)
     ]
     scale = max(size[0], LEVER * size[1]), max(size[1], LEVER * size[0])
+    worst = Difference(case, kind, "", "", 0.0, 0.0, 0.0)
     for half, unit, kin in zip((0, 3), units, scale, strict=True):
-        largest, worst = max(kin, LEAST[unit]), None
+        largest = max(kin, LEAST[unit])
         for label, row in theirs.items():
             mine = ours.get(label)
             for i in range(half, half + 3):
                 a, b = (math.nan if mine is None else mine[i]), row[i]
-                gap = abs(a - b)
-                share = math.inf if math.isnan(gap) else gap / largest
-                if worst is None or share > worst.share:
+                share = abs(a - b) / largest
+                if share > worst.share or math.isnan(share) or not worst.where:
+                    share = math.inf if math.isnan(share) else share
                     worst = Difference(case, kind, f"{label} {SIX[i]}", unit, a, b, share)
-        if worst is not None:
-            yield worst
+    return worst
 
 
 def laws(other: Mapping[str, Any]) -> dict[str, tuple[float, str]]:
@@ -118,7 +119,7 @@ def agrees(
 
 def table(found: Sequence[Difference], program: str, tolerance: float) -> str:
     """Write the differences as a table, the worst of every kind in every case."""
-    heads = ("case", "worst", "at", "Trunnion", program, "unit", "of largest", "")
+    heads = ("case", "", "worst at", "Trunnion", program, "unit", "of largest", "")
     rows = [
         (
             row.case,

@@ -12,9 +12,9 @@ from trunnion.arrays import ARC, F8, System
 from trunnion.forms import forms, rigidity_at
 from trunnion.frozen import frozen
 
-FEWEST, MOST = 4, 24
+FEWEST, MOST = 5, 25
 ALIKE = 1e-10  # change of the flexibility, scaled to a unit diagonal, at which n is enough
-RIGID_SHEAR = 3e4  # of EA: what SHEAR=OFF becomes; 3e-7 of the flexibility of a short bend
+STIFF_SHEAR = 2e3  # of EA, where SHEAR=OFF is taken back
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(20)
 
 
@@ -60,7 +60,7 @@ def hinge_count(system: System, e: int) -> int:
     """Smallest number of hinges that give the flexibility of an element."""
     best = flexibility(system, e, MOST)
     scale = np.sqrt(np.diag(best))
-    for n in range(FEWEST, MOST):
+    for n in range(FEWEST, MOST, 1 if system.rigidity[e, 3] > 0.0 else 2):
         change = np.abs(flexibility(system, e, n) - best) / np.outer(scale, scale)
         if change.max() <= ALIKE:
             return n
@@ -111,15 +111,29 @@ def _axes(system: System, e: int, s: F8) -> F8:
 
 
 def _stiffness(system: System, e: int, s: F8, length: F8) -> F8:
-    """(n, 6) stiffness of hinges that stand for `length` of pipe each."""
+    """(n, 6) stiffness of hinges that stand for `length` of pipe each.
+
+    Without shear flexibility (SHEAR=OFF; n is odd) hinges that are rigid across the pipe would
+    spoil the equations.  All but the middle one give a little, and the middle one takes that back:
+    where a chain gives way to a force at its end does not matter, only how much; so its stiffness
+    there is negative.
+    """
     rigidity = np.tile(system.rigidity[e], (len(s), 1))
     if system.kind[e] != ARC:
         form = forms(system)[[e]]
         rigidity = np.concatenate([rigidity_at(form, rigidity[:1], x) for x in s])
     ea, gj, ei, gas = rigidity.T
-    shear = np.where(gas > 0.0, gas, RIGID_SHEAR * ea)
     bending = ei / system.flex[e]
-    k: F8 = np.stack([ea, shear, shear, gj, bending, bending], axis=1) / length[:, None]
+    if system.rigidity[e, 3] > 0.0:
+        return np.stack([ea, gas, gas, gj, bending, bending], axis=1) / length[:, None]
+    across = STIFF_SHEAR * system.rigidity[e, 0] * np.ones_like(ea)
+    k: F8 = np.stack([ea, across, across, gj, bending, bending], axis=1) / length[:, None]
+    middle, axes = len(s) // 2, _axes(system, e, s)
+    others = np.arange(len(s)) != middle
+    turned = axes[others] @ axes[middle].T  # rows: axes of the others in those of the middle one
+    given = (turned[:, 1:] ** 2).sum(axis=1)
+    taken = (given / k[others, 1:2]).sum(axis=0)
+    k[middle, :3] = 1.0 / (np.array([1.0 / k[middle, 0], 0.0, 0.0]) - taken)
     return k
 
 

@@ -34,13 +34,13 @@ def chosen_cases(
     cases = []
     for case in wanted:
         card = cards.get(case.name)
-        if isinstance(card, Comb):
+        place = "cases" if card is None else card.place
+        if isinstance(card, Comb) or (card is None and case.kind == "comb"):
             if names:
                 text = f"COMB {case.name}: no case; export those that it is made of"
-                problems.append(Problem(card.place, text))
+                problems.append(Problem(place, text))
             continue
         found = list(_faults(card, case))
-        place = "cases" if card is None else card.place
         problems += [Problem(place, f"CASE {case.name}: {text}") for text in found]
         if not found:
             cases.append(case)

@@ -35,6 +35,7 @@ class Hold(NamedTuple):
 class Rub(NamedTuple):
     """Friction of a support as it was found; `holds` are the rows of `Hold` that press on it."""
 
+    slider: int
     card: int
     mode: str
     mu: float
@@ -148,6 +149,7 @@ def _rubs(case: CaseResult, rows: Sequence[Sequence[int]]) -> list[Rub]:
         basis = tuple(_vector(way) for way in s.basis[i] if way.any())
         found.append(
             Rub(
+                i,
                 int(s.card[i]),
                 MODES[mode],
                 float(s.mu[i]) * case.loads.mux,

@@ -1,8 +1,7 @@
-"""The OpenSeesPy script of a job: a text that stands alone, its data on its end."""
+"""The numbers of a job as a Python dictionary, one row a node, element, support or load."""
 
 from collections.abc import Iterable, Sequence
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -10,70 +9,8 @@ from trunnion.arrays import ARC, F8, SPRING, STRAIGHT, TAPER, CaseResult
 from trunnion.exports.hinges import chain
 from trunnion.exports.scene import Rub, Scene, Stand, absent, modulus_ratio, stand
 
-if TYPE_CHECKING:
-    from trunnion.exports import Job
 
-HERE = Path(__file__).parent
-SHARED = "from trunnion.exports.agreement import"  # what a script has a copy of
-
-
-def files(job: "Job", stem: str) -> dict[str, bytes]:
-    """Write the script under the deck's name."""
-    return {f"{stem}_opensees.py": script(job, stem).encode("ascii")}
-
-
-def script(job: "Job", stem: str) -> str:
-    """Write the script: what it is, the program, then the job's own numbers."""
-    about = "\n".join(_header(job, stem))
-    scene, deck = job.scene, job.source
-    return (
-        "\n\n".join(
-            (
-                f'"""{_in_docstring(about)}\n"""',
-                _body("agreement.py"),
-                _body("opensees_program.py"),
-                "# " + "-" * 66 + " the job\nJOB = {",
-            )
-        )
-        + "\n"
-        + "\n".join(_job(scene, deck))
-        + ('\n}\n\nif __name__ == "__main__":\n    sys.exit(main(JOB))\n')
-    )
-
-
-def _header(job: "Job", stem: str) -> Iterable[str]:
-    """What the script came from, what it represents and what not."""
-    from trunnion._version import VERSION
-
-    yield f"{job.title or job.source}: a piping job for OpenSees (OpenSeesPy)."
-    yield ""
-    yield f"Written by Trunnion {VERSION} from {job.source}.  Needs: pip install openseespy"
-    yield ""
-    yield f"    python {stem}_opensees.py                           solve, print, write the answer"
-    yield f"    python {stem}_opensees.py --compare {stem}.json     and compare with trunnion run"
-    yield ""
-    yield "From Trunnion are: geometry, section properties, flexibility factors of bends, loads by"
-    yield "weight, free strains by temperature and pressure.  From OpenSees are: the stiffness of"
-    yield "every element, the equations and their solution, and the state of every support with one"
-    yield "side or a gap.  Units: N, m, rad.  Rigid supports are springs as in Trunnion."
-    for text in (*job.notes, *(f"LEFT OUT: {problem.text}" for problem in job.left_out)):
-        yield f"- {text}"
-
-
-def _in_docstring(text: str) -> str:
-    """Text without what could end a docstring or start an escape."""
-    plain = text.encode("ascii", "replace").decode()
-    return plain.replace("\\", "/").replace('"', "'")
-
-
-def _body(name: str) -> str:
-    """Source of a module without its docstring and without what the script holds already."""
-    text = (HERE / name).read_text(encoding="utf-8").split('"""', 2)[2].strip()
-    lines = [line for line in text.splitlines() if not line.startswith(SHARED)]
-    return "\n".join(lines).strip()
-
-
-def _job(scene: Scene, deck: str) -> Iterable[str]:
+def job_lines(scene: Scene, deck: str) -> Iterable[str]:
     """Lines of the dictionary of the job."""
     s, labels = scene.system, scene.system.labels
     yield f'    "deck": {deck!a},'
@@ -191,6 +128,7 @@ def _case(scene: Scene, case: CaseResult, found: Stand, which: int) -> Iterable[
 def _rub(rub: Rub) -> dict[str, Any]:
     row: dict[str, Any] = rub._asdict()
     row["contacts"] = row.pop("holds")
+    del row["slider"]
     return row
 
 

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from trunnion.arrays import F8, CaseResult
-from trunnion.exports.calculix import Deck, build, card_nodes, groups, hold_key, supports
-from trunnion.exports.scene import Stand, stand
+from trunnion.exports.calculix import groups, numbered
+from trunnion.exports.calculix.numbering import Deck, hold_keys
+from trunnion.exports.scene import Rub, Stand
 
 if TYPE_CHECKING:
     from trunnion.exports import Job
@@ -29,10 +30,7 @@ def read_answer(
     for name, own in groups(job.scene, stem).items():
         run(folder, name)
         steps = _blocks(folder / f"{name}.dat")
-        deck = build(job.scene, own[0])
-        stands = [stand(case) for case in own]
-        for found in stands:
-            supports(deck, found)
+        deck, stands = numbered(job.scene, own)
         for i, (case, found) in enumerate(zip(own, stands, strict=True)):
             if i < len(steps):
                 cases[case.name] = _case(deck, case, found, steps[i])
@@ -67,7 +65,8 @@ def _case(
         u[i, :3] = step["PIPES"][body.node][:3]
         own = "PIPES" if body.turn == body.node else "TURNS"
         u[i, 3:] = step[own][body.turn][body.first - 1 : body.first + 2]
-    pushes = [float(step["GROUNDS"][deck.grounds[hold_key(hold)].node][0]) for hold in found.holds]
+    grounds = [deck.grounds[key] for key in hold_keys(found.holds)]
+    pushes = [float(step["GROUNDS"][ground.node][0]) for ground in grounds]
     force = np.zeros((len(s.cards), 6))
     assert case.loads is not None
     force[:, :3] += np.outer(case.loads.preload, s.up)
@@ -78,7 +77,7 @@ def _case(
         if rub.mode == "slip":
             force[rub.card, :3] += rub.force
         for way in rub.basis if rub.mode == "stick" else ():
-            push = float(step["GROUNDS"][deck.grounds[rub.card, way, rub.kf].node][0])
+            push = float(step["GROUNDS"][deck.grounds[rub.slider, way].node][0])
             force[rub.card, :3] += push * np.array(way)
     law, where = _judge(deck, case, found, u, pushes)
     names = zip(deck.scene.cards, s.cards, strict=True)
@@ -99,7 +98,8 @@ def _judge(
 ) -> tuple[float, str]:
     """Worst violation of the contact and friction laws in CalculiX's own numbers, and where.
 
-    Forces relative to the largest force of a support, travel to the largest movement.
+    Pulls relative to the largest force of a spring, friction to the largest normal force on which
+    there is some, travel to the largest movement.
     """
     most = max([1.0, *map(abs, pushes)])
     reach = max(1e-12, float(np.abs(u[:, :3]).max()))
@@ -113,20 +113,11 @@ def _judge(
             worst.append((beyond / reach, f"gap at {name}"))
         elif hold.closed != 2:
             worst.append((max(0.0, push * hold.closed) / most, f"pull at {name}"))
-    for rub in found.rubs:
-        total = sum((pushes[i] * np.array(found.holds[i].normal) for i in rub.holds), np.zeros(3))
-        capacity = rub.mu * float(np.linalg.norm(total))
+    normals = [_pressed(found, rub, pushes) for rub in found.rubs]
+    for rub, normal in zip(found.rubs, normals, strict=True):
         travel = _travel(deck, case, u, rub.card, slice(0, 3)) - rub.datum
-        travel = sum((np.dot(travel, way) * np.array(way) for way in rub.basis), np.zeros(3))
-        slide, force = float(np.linalg.norm(travel)), float(np.linalg.norm(rub.force))
-        error = capacity
-        if rub.mode == "stick":
-            error = max(0.0, rub.kf * slide - capacity - rub.kf * DIGITS * reach)
-        elif rub.mode == "slip":
-            sine = float(np.linalg.norm(np.cross(travel, rub.force))) / max(slide * force, 1e-300)
-            same_way = force > 0.0 and float(np.dot(travel, rub.force)) > 0.0
-            error = most if same_way else max(abs(force - capacity), sine * force)
-        worst.append((error / most, f"friction of {deck.scene.cards[rub.card]}"))
+        error = _coulomb(rub, rub.mu * normal, travel, DIGITS * reach)
+        worst.append((error / max(1.0, *normals), f"friction of {deck.scene.cards[rub.card]}"))
     for ring in found.rings:
         travel = _travel(deck, case, u, ring.card, slice(0, 3))
         across = float(np.linalg.norm([np.dot(travel, way) for way in ring.normals]))
@@ -136,10 +127,35 @@ def _judge(
     return max(worst)
 
 
+def _pressed(found: Stand, rub: Rub, pushes: list[float]) -> float:
+    """Size of the force that presses on a slider [N]."""
+    parts = (pushes[i] * np.array(found.holds[i].normal) for i in rub.holds)
+    return float(np.linalg.norm(sum(parts, np.zeros(3))))
+
+
+def _coulomb(rub: Rub, capacity: float, travel: F8, printed: float) -> float:
+    """Force by which the friction that was held departs from Coulomb's law [N].
+
+    Parameters
+    ----------
+    capacity : mu N [N].  travel : (3,) from the datum [m].
+    printed : how far a printed movement is rounded [m].
+    """
+    travel = sum((np.dot(travel, way) * np.array(way) for way in rub.basis), np.zeros(3))
+    slide, force = float(np.linalg.norm(travel)), float(np.linalg.norm(rub.force))
+    if rub.mode == "stick":
+        return max(0.0, rub.kf * (slide - printed) - capacity)
+    if rub.mode == "open":
+        return capacity
+    sine = float(np.linalg.norm(np.cross(travel, rub.force))) / max(slide * force, 1e-300)
+    opposed = float(np.dot(travel, rub.force)) <= 0.0
+    return max(abs(force - capacity), sine * force) if opposed else force + capacity
+
+
 def _travel(deck: Deck, case: CaseResult, u: F8, card: int, part: slice) -> F8:
     """Movement of a support's node against its base (3,)."""
     assert case.loads is not None
-    node, other = card_nodes(deck.scene.system, card)
+    node, other = deck.cards[card]
     base = case.loads.base[card] if other < 0 else u[other]
     moved: F8 = u[node, part] - base[part]
     return moved
