@@ -56,6 +56,7 @@ def answer(
         resists.
     """
     forcing = forcing_of(structure, question)
+    structure.ledger.watch.begin(question.name)
     history = History(structure.system, structure.ledger)
     result = CaseResult(
         name=question.name,
@@ -183,6 +184,7 @@ def _attempt(job: Job, prepared: tuple[Point, Solved] | None = None) -> Origin |
     job.solved = solved
     if not solved.settled:
         return None
+    structure.ledger.watch.part = "certificate"
     reported = report_numbers(structure, point, solved.sliding, forcing)
     result.certificate = certify(
         structure.system,

@@ -1,0 +1,13 @@
+"""The screens in the documentation are what the program shows."""
+
+import pytest
+from docscreens import PAGES, alike, blocks, home, made
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_every_screen_is_what_the_program_shows(tmp_path, page):
+    folder, found = home(tmp_path), list(blocks(page))
+    assert found
+    for block in found:
+        shown = made(block, folder)
+        assert alike(shown) == alike(block[3]), "python tests/helpers/docscreens.py writes it again"
