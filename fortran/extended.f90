@@ -7,7 +7,7 @@ module extended
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: add_dd, add_product, divide_dd, multiply_dd, two_prod, two_sum
+   public :: add_dd, add_product, divide_dd, multiply_dd, split, two_prod, two_sum
 
    real(wp), parameter :: splitter = 134217729.0_wp   !! 2**27 + 1
 
@@ -25,20 +25,28 @@ contains
       e = (a - (s - t)) + (b - t)
    end subroutine two_sum
 
+   !> a = high + low exactly, with 26 digits each: products of such are exact (Dekker).
+   elemental subroutine split(a, high, low)
+      real(wp), intent(in) :: a
+      real(wp), intent(out) :: high, low
+
+      real(wp) :: t
+
+      t = splitter*a
+      high = t - (t - a)
+      low = a - high
+   end subroutine split
+
    !> p + e = a b exactly, unless the product over- or underflows.
    elemental subroutine two_prod(a, b, p, e)
       real(wp), intent(in) :: a, b
       real(wp), intent(out) :: p, e
 
-      real(wp) :: t, a1, a2, b1, b2
+      real(wp) :: a1, a2, b1, b2
 
       p = a*b
-      t = splitter*a
-      a1 = t - (t - a)
-      a2 = a - a1
-      t = splitter*b
-      b1 = t - (t - b)
-      b2 = b - b1
+      call split(a, a1, a2)
+      call split(b, b1, b2)
       e = ((a1*b1 - p) + a1*b2 + a2*b1) + a2*b2
    end subroutine two_prod
 

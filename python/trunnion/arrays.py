@@ -6,6 +6,7 @@ described at its second end ("tip"), fixed at the first: six deformations and si
 Records of arrays have no == (arrays have no one truth value) and no repr of theirs.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -376,7 +377,8 @@ class CaseResult:
     `state` is None when the case did not converge; `cause` then says why.  `history` has one
     record an iteration; `work` counts analyse, factorise, solve, refine, elements, iterations.
     `penalty_u` (n_node, 6) and `penalty_r` (n_contact, 3) are the first-order corrections to
-    rigid supports; `penalty_effect` their largest relative size.  `digits` are those of the
+    rigid supports, the former made by `rigid` when asked for; `penalty_effect` is their largest
+    relative size.  `digits` are those of the
     displacements that do not hang on the last bit of the input, and where they are fewest.
     """
 
@@ -390,7 +392,7 @@ class CaseResult:
     cause: str | None = None
     certificate: Certificate | None = None
     penalty_effect: dict[str, float] = field(default_factory=dict)
-    penalty_u: F8 | None = None
+    rigid: Callable[[], F8 | None] | None = None
     penalty_r: F8 | None = None
     digits: tuple[float, str] | None = None
     frozen: tuple[str, ...] = ()
@@ -402,6 +404,11 @@ class CaseResult:
     frozen_check: tuple[FrozenBreak, ...] = ()  # of a locked case: what its assumption breaks
     gathered: Gathered | None = None  # None where contacts have states
     total: "CaseResult | None" = None  # of a NONLINEAR increment: both loads together
+
+    @property
+    def penalty_u(self) -> F8 | None:
+        """What rigid supports would add to the displacements (n_node, 6) [m, rad]."""
+        return None if self.rigid is None else self.rigid()
 
     @property
     def displacements(self) -> "Table":

@@ -2,8 +2,9 @@
 
     python tests/helpers/docscreens.py        write every screen again
 
-A screen is a fenced block that begins with a prompt.  Its commands run one after another in a
-folder with the models beside it; `<!-- 60x24 -->` above a block gives another terminal than 80x24.
+A screen is a fenced block `console screen`; plain `console` blocks are piped (`consoles`).  Its
+commands run one after another in a folder with the models beside it; `<!-- 60x24 -->` above a
+block gives another terminal than 80x24.
 """
 
 import re
@@ -13,12 +14,12 @@ import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
+from consoles import blurred
 from terminal import on_terminal
 
 ROOT = Path(__file__).parents[2]
 PAGES = ("terminal.md", "verify_diff_show.md", "many.md")
-BLOCK = re.compile(r"(?:<!-- (\d+)x(\d+) -->\n)?```console\n(.*?)```\n", re.DOTALL)
-TINY = re.compile(r"\d\.\de-\d\d")  # residues of rounding: another processor may give others
+BLOCK = re.compile(r"(?:<!-- (\d+)x(\d+) -->\n)?```console screen\n(.*?)```\n", re.DOTALL)
 
 
 def blocks(page: str) -> Iterator[re.Match[str]]:
@@ -63,11 +64,6 @@ def _said(words: list[str], folder: Path, size: tuple[int, int]) -> str:
     return "" if quiet else "".join(f"{row}\n" for row in found.screen)
 
 
-def alike(text: str) -> str:
-    """A screen without what rounding leaves."""
-    return TINY.sub("0.0e-00", text)
-
-
 def write() -> None:
     """Write every screen again."""
     for page in PAGES:
@@ -79,7 +75,7 @@ def write() -> None:
                 start, end = block.span(3)
                 new = made(block, folder)
                 old = text[start:end]
-                out += text[at:start] + (old if alike(new) == alike(old) else new)
+                out += text[at:start] + (old if blurred(new) == blurred(old) else new)
                 at = end
             path.write_text(out + text[at:])
 

@@ -1,6 +1,7 @@
 """Combinations of results, component by component."""
 
 import dataclasses
+from functools import partial
 
 import numpy as np
 import pytest
@@ -59,7 +60,8 @@ def case(system, name, seed, worst=1e-12):
     certificate = Certificate(worst <= 1e-9, worst, "slide at x", (Item("slide", worst, "x"),))
     return CaseResult(
         name, "case", name, system, loads, state, True, certificate=certificate,
-        penalty_u=rng.normal(size=(3, 6)), penalty_effect={"u": 100 * worst, "R": 0.1},
+        rigid=partial(np.copy, rng.normal(size=(3, 6))),
+        penalty_effect={"u": 100 * worst, "R": 0.1},
     )  # fmt: skip
 
 

@@ -61,6 +61,14 @@ def test_a_factor_that_cannot_solve_is_replaced_by_one_in_double_double():
     assert case.displacements["60"]["uz"] == pytest.approx(2e-3 * length**3 / 3 / ei, rel=1e-6)
 
 
+@pytest.mark.parametrize("case", ["1.1*F1 + T1", "F1 + 1.000001*T1", "F1 + T1", "-F1 + T1"])
+def test_a_start_near_the_answer_is_refined_until_it_balances(case):
+    """The last correction counts where it is small against the movement but moves forces."""
+    text = STUBS + f"FORCE 60 F1 FY=1e-3 FZ=2e-3\nCASE A = F1 + T1\nCASE B = {case} FROM=A\n"
+    found = trunnion.solve(read_text(HEAD + text, "deck.inp"))["B"]
+    assert found.certificate.worst < 1e-11
+
+
 def test_the_factor_in_double_double_is_that_of_the_matrix():
     """Random right-hand sides, against the factor in doubles of a tame structure."""
     deck = (

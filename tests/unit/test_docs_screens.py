@@ -1,7 +1,8 @@
 """The screens in the documentation are what the program shows."""
 
 import pytest
-from docscreens import PAGES, alike, blocks, home, made
+from consoles import blurred
+from docscreens import PAGES, blocks, home, made
 
 
 @pytest.mark.parametrize("page", PAGES)
@@ -10,4 +11,5 @@ def test_every_screen_is_what_the_program_shows(tmp_path, page):
     assert found
     for block in found:
         shown = made(block, folder)
-        assert alike(shown) == alike(block[3]), "python tests/helpers/docscreens.py writes it again"
+        said = "python tests/helpers/docscreens.py writes it again"
+        assert blurred(shown) == blurred(block[3]), said

@@ -47,9 +47,9 @@ def test_the_work_is_exactly(text, counts):
     }
 
 
-def test_a_report_of_one_case_sees_every_element_thrice():
-    """At assembly, for the answer and for its correction; the chain's own counts are one each."""
-    elements, chain, looks = 3, 1, 3
+def test_a_report_of_one_case_sees_every_element_twice():
+    """At assembly and for the answer; the chain's own counts are one each."""
+    elements, chain, looks = 3, 1, 2
     assert work(LINEAR)["elements"] == looks * elements + 4 * chain
 
 

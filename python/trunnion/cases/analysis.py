@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import cached_property
 
 import numpy as np
 
@@ -25,10 +26,8 @@ from trunnion.loads import LoadSets, case_loads, case_warnings, load_sets
 from trunnion.model import Case, Comb, Model
 from trunnion.results.combine import combine
 from trunnion.solver.answer import Question, answer, forcing_of, refuse_mechanisms
-from trunnion.solver.friction import Solved
 from trunnion.solver.ledger import Ledger
-from trunnion.solver.linear import solve_linear
-from trunnion.solver.quantities import Point
+from trunnion.solver.linear import Prepared, solve_linear
 from trunnion.solver.steps import Origin, Plan
 from trunnion.solver.structure import Structure
 from trunnion.system import build_system, hot_system, shares_pattern
@@ -119,13 +118,28 @@ def solve_system(
     """Solve loads on a system of arrays: the way in for programs that need no deck."""
     ledger = Ledger()
     structure = Structure(system, ledger)
+    questions = [
+        Question(name, name, loads, (plans or {}).get(name, Plan()))
+        for name, loads in cases.items()
+    ]
+    prepared: dict[str, Prepared] = {}
+    if not structure.changes:
+        prepared = _prepare(structure, questions)
     found: dict[str, CaseResult] = {}
-    for name, loads in cases.items():
+    for question in questions:
         before = ledger.snapshot() if found else dict.fromkeys(ledger.NAMES, 0)
-        question = Question(name, name, loads, (plans or {}).get(name, Plan()))
-        found[name], _ = answer(structure, question)
-        found[name].work |= ledger.since(before)
+        found[question.name], _ = answer(structure, question, None, prepared.get(question.name))
+        found[question.name].work |= ledger.since(before)
     return Results("", found, (), ledger.snapshot())
+
+
+def _prepare(structure: Structure, questions: list[Question]) -> dict[str, Prepared]:
+    """Solve all cases of a structure on which nothing can change at once."""
+    forcings = [forcing_of(structure, question) for question in questions]
+    answers = solve_linear(structure, forcings)
+    if answers:
+        refuse_mechanisms(structure)
+    return {question.name: own for question, own in zip(questions, answers, strict=True)}
 
 
 class Run:
@@ -165,9 +179,10 @@ class Run:
         cases = in_order(self.model.cases)
         plain = [c for c in cases if isinstance(c, Case) and not (c.about or c.on or c.spectrum)]
         self.ledger.watch.total = sum(isinstance(c, Case) for c in cases)
-        prepared = self._solve_linear(plain)
+        prepared, sums = self._solve_linear(plain)
         for own in plain:
-            self._keep(self.solve_case(own, prepared.get(own.name)))
+            ready = sums.get(own.name)
+            self._keep(ready or self.solve_case(own, prepared.get(own.name)))
         locked = [c for c in cases if isinstance(c, Case) and (c.about or c.on)]
         if locked:
             from trunnion.cases.occasional import LockedPass
@@ -277,28 +292,61 @@ class Run:
             return Structure(system, self.ledger, base)
         return Structure(system, self.ledger, like=base)
 
-    def _solve_linear(self, cases: list[Case]) -> dict[str, tuple[Point, Solved]]:
-        """Where nothing can change, all cases of one modulus take one solve."""
+    def _solve_linear(self, cases: list[Case]) -> tuple[dict[str, Prepared], dict[str, CaseResult]]:
+        """Where nothing can change, all cases of one modulus take one solve, or are sums."""
         groups: dict[int, list[Case]] = {}
         for case in cases:
             structure = self.structure(case)
             if not structure.changes:
                 groups.setdefault(id(structure), []).append(case)
-        prepared: dict[str, tuple[Point, Solved]] = {}
+        prepared: dict[str, Prepared] = {}
+        sums: dict[str, CaseResult] = {}
         for asked in groups.values():
             structure = self.structure(asked[0])
-            group = [c for c in asked if not self.session.recall(structure, self.question(c), None)]
-            if not group:
-                continue
-            forcings = [forcing_of(structure, self.question(case)) for case in group]
-            answers = solve_linear(structure, forcings)
-            refuse_mechanisms(structure)
-            names = (case.name for case in group)
-            prepared.update(zip(names, answers, strict=True))
-        return prepared
+            group = [c for c in asked if not self._is_answered(c)]
+            sums |= self._superpose(structure, group)
+            rest = [self.question(case) for case in group if case.name not in sums]
+            prepared |= _prepare(structure, rest)
+        return prepared, sums
+
+    def _superpose(self, structure: Structure, group: list[Case]) -> dict[str, CaseResult]:
+        """Answers to cases as sums of load sets, where there are many cases of few sets."""
+        if len(group) < 2:
+            return {}
+        from trunnion.cases.superposed import as_sums
+
+        sums = as_sums(self, structure, group)
+        for case in group:
+            if case.name in sums:
+                question = self.question(case)
+                self.session.keep(structure, question, None, (sums[case.name], None))
+        return sums
+
+    def _is_answered(self, case: Case) -> bool:
+        """Tell whether an earlier solve has the answer from rest."""
+        known = self.session.knows(case.name)
+        return known and self._recalled(case, self.question(case), None) is not None
+
+    def _recalled(
+        self, case: Case, question: Question, origin: Origin | None
+    ) -> tuple[CaseResult, Origin | None] | None:
+        """The answer of an earlier solve, unless others go on from it and it cannot tell where."""
+        found = self.session.recall(self.structure(case), question, origin)
+        if found is not None and found[1] is None and case.name in self.leads:
+            return None
+        return found
+
+    @cached_property
+    def leads(self) -> frozenset[str]:
+        """Names of the cases that others go on from."""
+        plain = [case for case in self.model.cases if isinstance(case, Case)]
+        loops = self.model.cycles
+        names = [n for case in plain for n in (case.start, case.about, case.on)]
+        names += [n for loop in loops for n in (loop.start, *loop.cases)]
+        return frozenset(name for name in names if name)
 
     # ------------------------------------------------------------------ one case
-    def solve_case(self, case: Case, prepared: tuple[Point, Solved] | None = None) -> CaseResult:
+    def solve_case(self, case: Case, prepared: Prepared | None = None) -> CaseResult:
         """Solve one case from rest or from the case that FROM names."""
         question = self.question(case)
         structure = self.structure(case)
@@ -324,11 +372,11 @@ class Run:
         case: Case,
         question: Question,
         origin: Origin | None,
-        prepared: tuple[Point, Solved] | None = None,
+        prepared: Prepared | None = None,
     ) -> tuple[CaseResult, Origin | None]:
         """Solve one case from where another ended, or from rest."""
         structure = self.structure(case)
-        found = self.session.recall(structure, question, origin)
+        found = self._recalled(case, question, origin)
         if found is not None:
             return found
         found = self.ask(case, question, origin, prepared)
@@ -340,12 +388,14 @@ class Run:
         case: Case,
         question: Question,
         origin: Origin | None,
-        prepared: tuple[Point, Solved] | None = None,
+        prepared: Prepared | None = None,
     ) -> tuple[CaseResult, Origin | None]:
         """Solve one case, whatever was answered before."""
         structure, locked = self.structure(case), case.snubbers == "LOCKED"
         if origin is not None:
             loads, origin = go_on(self.system, structure, origin, question.loads, locked=locked)
+            if loads is not question.loads and prepared is not None:
+                prepared = replace(prepared, forcing=structure.forcing(loads))
             question = replace(question, loads=loads)
         elif locked:
             origin = locked_at_rest(structure)

@@ -82,7 +82,7 @@ class LockedPass:
         prepared = solve_linear(structure, forcings)
         held = structure.held
         if held is None or held[2] > 0.0 or structure.rcond <= TINY_PIVOT:
-            response = prepared[0][1].response
+            response = prepared[0].solved.response
             motions = motions_at(structure, response)
             if motions:
                 cause = "frozen state: " + "; ".join(m.text for m in motions)
@@ -188,4 +188,4 @@ def _padded(about: CaseResult, total: CaseResult, start: Origin) -> CaseResult:
         reaction=np.concatenate((about.state.reaction, np.zeros((more, 3)))),
     )
     system, loads = total.system, start.loads
-    return replace(about, system=system, state=state, loads=loads, penalty_u=None, penalty_r=None)
+    return replace(about, system=system, state=state, loads=loads, rigid=None, penalty_r=None)

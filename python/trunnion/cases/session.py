@@ -85,6 +85,10 @@ class Session:
         self.structures[key] = Structure(system, ledger)
         return self.structures[key]
 
+    def knows(self, name: str) -> bool:
+        """Tell whether a case of this name was answered before."""
+        return name in self.answers
+
     def recall(
         self, structure: Structure, question: Question, origin: Origin | None
     ) -> tuple[CaseResult, Origin | None] | None:

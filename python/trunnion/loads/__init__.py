@@ -1,11 +1,11 @@
 """Load cases as arrays: weight, temperature, pressure, movements, forces, occasional loads."""
 
 from collections.abc import Mapping
-from dataclasses import field
+from dataclasses import field, replace
 
 import numpy as np
 
-from trunnion.arrays import F8, Loads, System
+from trunnion.arrays import F8, Loads, System, no_loads
 from trunnion.errors import Problem
 from trunnion.frozen import frozen
 from trunnion.loads.components import cold_spring, joint_weights, thrusts, uniform_loads
@@ -21,6 +21,7 @@ from trunnion.system.checks import refuse
 class LoadSets:
     """Every load set of a model with factor 1, on its numbered system.
 
+    still : no loads.
     weight : W, WNC, WW -> (n_elem,) weight per length of axis [N/m].
     skew : W, WNC, WW -> (n_elem, 2) how the weight of reducers varies; see `arrays.Loads`.
     lump : W, WNC, WW -> (n_node,) weight of concentrated masses and of expansion joints [N].
@@ -36,6 +37,7 @@ class LoadSets:
     cut : (n_elem,) free strain of cold spring, set CS; None where nothing is cut.
     """
 
+    still: Loads
     up: F8
     weight: Mapping[str, F8]
     skew: Mapping[str, F8]
@@ -70,6 +72,7 @@ def load_sets(model: Model, system: System) -> LoadSets:
     weight = line_weights(model, system)
     spread |= uniform_loads(model, system, weight["W"])
     sets = LoadSets(
+        still=no_loads(system),
         up=system.up,
         weight=weight,
         skew=skews(model, system),
@@ -105,50 +108,63 @@ def case_loads(model: Model, system: System, case: Case, sets: LoadSets | None =
     sets = load_sets(model, system) if sets is None else sets
     problems = missing_sets(sets, case)
     refuse(problems)
-    n_elem, n_node, n_card = len(system.ends), len(system.xyz), len(system.cards)
-    dist, nodal = np.zeros((n_elem, 3)), np.zeros((n_node, 6))
-    strain, pressure = np.zeros(n_elem), np.zeros(n_elem)
-    base, preload = np.zeros((n_card, 6)), np.zeros(n_card)
-    vary = np.zeros((n_elem if len(system.taper) else 0, 2, 3))
+    total = _Sums(sets.still)
     for term in case.terms:
-        f, name, which = term.factor, term.name, term.name[1:]
-        if name in sets.weight:
-            dist -= np.outer(f * sets.weight[name], sets.up)
-            nodal[:, :3] -= np.outer(f * sets.lump[name], sets.up)
-            vary -= f * sets.skew[name][:, :, None] * sets.up
-        elif name in sets.spread:
-            dist += f * sets.spread[name]
-        elif name == "H":
-            preload += f * sets.preload
-        elif name == "CS":
-            strain += f * (0.0 if sets.cut is None else sets.cut)
-        elif name[0] == "T":
-            strain += f * sets.strain[which]
-        elif name[0] == "P":
-            pressure += f * sets.pressure[which]
-            nodal += f * sets.thrust.get(which, 0.0)
-        elif name[0] == "D":
-            base += f * sets.base[which]
-        elif name[0] == "F":
-            nodal += f * sets.force[which]
-        else:
-            a = f * _acceleration(sets, term)
-            dist += np.outer(sets.weight["W"], a)
-            nodal[:, :3] += np.outer(sets.lump["W"], a)
-            vary += sets.skew["W"][:, :, None] * a
-    ea = system.rigidity[:, 0]
-    per_ea = pressure / np.where(ea > 0.0, ea, 1.0)
-    return Loads(
-        dist=dist,
-        strain=strain + sets.elongation * per_ea,
-        curvature=sets.opening * per_ea,
-        nodal=nodal,
-        base=base,
-        preload=preload,
-        pressure=pressure,
-        mux=case.mux,
-        vary=vary,
-    )
+        _add_term(total, sets, term)
+    if "pressure" in total:
+        ea = system.rigidity[:, 0]
+        per_ea = total["pressure"] / np.where(ea > 0.0, ea, 1.0)
+        total["strain"] += sets.elongation * per_ea
+        total["curvature"] += sets.opening * per_ea
+    return replace(sets.still, mux=case.mux, **total)
+
+
+class _Sums(dict[str, F8]):
+    """Arrays of a case by name; those that nothing is added to are those of no loads."""
+
+    def __init__(self, still: Loads) -> None:
+        self.still = still
+
+    def __missing__(self, name: str) -> F8:
+        fresh: F8 = getattr(self.still, name).copy()
+        return fresh
+
+
+def _add_term(total: _Sums, sets: LoadSets, term: Term) -> None:
+    f, name, which = term.factor, term.name, term.name[1:]
+    if name in sets.weight:
+        _add_weight(total, sets, name, -f * sets.up)
+    elif name in sets.spread:
+        total["dist"] += f * sets.spread[name]
+    elif name == "H":
+        total["preload"] += f * sets.preload
+    elif name == "CS":
+        total["strain"] += f * (0.0 if sets.cut is None else sets.cut)
+    elif name[0] == "T":
+        total["strain"] += f * sets.strain[which]
+    elif name[0] == "P":
+        total["pressure"] += f * sets.pressure[which]
+        if which in sets.thrust:
+            total["nodal"] += f * sets.thrust[which]
+    elif name[0] == "D":
+        total["base"] += f * sets.base[which]
+    elif name[0] == "F":
+        total["nodal"] += f * sets.force[which]
+    else:
+        _add_weight(total, sets, "W", f * _acceleration(sets, term))
+
+
+def _add_weight(total: _Sums, sets: LoadSets, name: str, way: F8) -> None:
+    """Add the weights of a set along a vector, in multiples of g."""
+    weights = [("dist", sets.weight[name]), ("nodal", sets.lump[name])]
+    for array, weight in weights:
+        if weight.any():
+            rows = total[array]
+            for i in np.flatnonzero(way):
+                rows[:, i] += way[i] * weight
+            total[array] = rows
+    if sets.skew[name].size:
+        total["vary"] += sets.skew[name][:, :, None] * way
 
 
 def case_warnings(sets: LoadSets, case: Case) -> tuple[str, ...]:

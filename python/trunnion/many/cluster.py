@@ -55,9 +55,11 @@ def solve_there(
             sent[future] = deck, marks
         while sent:
             for future in _ready(sent, client, tick):
-                deck, marks = sent.pop(future)
-                yield _take(future, deck, marks, folder, settings)
-                future.release()
+                entry = _take(future, *sent[future], folder, settings)
+                if entry is not None:
+                    del sent[future]
+                    yield entry
+                    future.release()
     finally:
         client.cancel(list(sent), force=True)
         client.close(timeout=2)
@@ -107,11 +109,17 @@ def _ready(
 
 def _take(
     future: "Future", deck: Path, marks: dict[str, str], folder: Path, settings: Settings
-) -> Entry:
-    """Write what came back, or say why nothing did."""
-    if future.status != "finished":
-        error: Any = future.exception() if future.status == "error" else None
-        lost = f"{future.status}: the scheduler went away or gave it up"
+) -> Entry | None:
+    """Write what came back, or say why nothing did; None while the answer is made once more.
+
+    An answer that died with its worker is `lost` until another worker has made it.
+    """
+    status = future.status
+    if status in ("lost", "pending"):
+        return None
+    if status != "finished":
+        error: Any = future.exception() if status == "error" else None
+        lost = f"{status}: the scheduler went away or gave it up"
         cause = f"{type(error).__name__}: {error}" if error is not None else lost
         return Entry(deck.stem, deck.name, INTERNAL, causes=(f"on the cluster: {cause}",))
     try:

@@ -8,6 +8,7 @@ what they share are nodes, elements and support cards.
 
 from collections.abc import Callable, Mapping
 from dataclasses import fields, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -163,7 +164,7 @@ def combine(comb: Comb, results: Mapping[str, CaseResult]) -> CaseResult:
     row = evaluate(comb.expression, {case.name: _in_a_row(rows[case.name], case) for case in cases})
     _unfold(answer, _cut(row, shapes))
     if answer.linear:
-        answer.penalty_u = _corrections(comb.expression, {c.name: c.penalty_u for c in cases})
+        answer.rigid = partial(_rigid, comb.expression, tuple(cases))
         if touching:
             answer.penalty_r = _corrections(comb.expression, {c.name: c.penalty_r for c in cases})
     answer.penalty_effect = {
@@ -224,6 +225,11 @@ def _in_a_row(arrays: Mapping[str, F8], case: CaseResult) -> Numbers:
     low = np.zeros_like(high)
     low[: case.state.u.size] = case.state.u_low.ravel()
     return Numbers(high, low)
+
+
+def _rigid(expression: Expression, cases: tuple[CaseResult, ...]) -> F8 | None:
+    """What rigid supports would add to the displacements."""
+    return _corrections(expression, {case.name: case.penalty_u for case in cases})
 
 
 def _corrections(expression: Expression, arrays: Mapping[str, F8 | None]) -> F8 | None:

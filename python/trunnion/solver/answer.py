@@ -4,13 +4,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from trunnion.arrays import F8, CaseResult, Certificate, Loads, System
+from trunnion.arrays import F8, CaseResult, Certificate, Loads
 from trunnion.certificate import certify
 from trunnion.errors import ModelError, Problem
 from trunnion.solver.causes import explain
 from trunnion.solver.digits import FREEDOMS, has_stiffness, is_lossy
 from trunnion.solver.friction import Solved
 from trunnion.solver.history import History
+from trunnion.solver.linear import Prepared
 from trunnion.solver.mechanism import null_motions, structural_motions
 from trunnion.solver.newton import TINY_PIVOT
 from trunnion.solver.quantities import Forcing, Point, Sliding
@@ -40,14 +41,14 @@ def answer(
     structure: Structure,
     question: Question,
     origin: Origin | None = None,
-    prepared: tuple[Point, Solved] | None = None,
+    prepared: Prepared | None = None,
 ) -> tuple[CaseResult, Origin | None]:
     """Solve a case and judge it; also give what later cases may start from.
 
     Parameters
     ----------
     origin : where the case starts; None is the undeformed, unloaded pipe.
-    prepared : point and end of a linear case that was solved together with others.
+    prepared : a linear case with the same loads that was solved together with others.
 
     Raises
     ------
@@ -55,21 +56,11 @@ def answer(
         The structure moves freely with every contact closed, or a load acts where nothing
         resists.
     """
-    forcing = forcing_of(structure, question)
     structure.ledger.watch.begin(question.name)
+    forcing = prepared.forcing if prepared else forcing_of(structure, question)
     history = History(structure.system, structure.ledger)
-    result = CaseResult(
-        name=question.name,
-        kind="case",
-        text=question.text,
-        system=structure.system,
-        loads=question.loads,
-        state=None,
-        converged=False,
-        warnings=question.warnings,
-        history=history.records,
-        passes=history.passes,
-    )
+    result = unanswered(structure, question)
+    result.history, result.passes = history.records, history.passes
     start = origin or at_rest(structure)
     try:
         end = _solve(structure, question, forcing, start, history, result, prepared)
@@ -78,6 +69,20 @@ def answer(
     result.frozen = tuple(history.frozen)
     result.work = {"aitken": history.jumps}
     return result, end
+
+
+def unanswered(structure: Structure, question: Question) -> CaseResult:
+    """What is known of a case before it is solved."""
+    return CaseResult(
+        name=question.name,
+        kind="case",
+        text=question.text,
+        system=structure.system,
+        loads=question.loads,
+        state=None,
+        converged=False,
+        warnings=question.warnings,
+    )
 
 
 def at_rest(structure: Structure) -> Origin:
@@ -125,7 +130,7 @@ def _solve(
     start: Origin,
     history: History,
     result: CaseResult,
-    prepared: tuple[Point, Solved] | None,
+    prepared: Prepared | None,
 ) -> Origin | None:
     """Answer a case by the first attempt that is certified."""
     job = Job(structure, question, forcing, start, history, result)
@@ -173,14 +178,14 @@ class Job:
         return explain(self.structure, law, self.forcing, solved, self.history)
 
 
-def _attempt(job: Job, prepared: tuple[Point, Solved] | None = None) -> Origin | None:
+def _attempt(job: Job, prepared: Prepared | None = None) -> Origin | None:
     """Solve, refine and judge; None, and a cause, where that gives no certified answer."""
     structure, forcing, result = job.structure, job.forcing, job.result
     if prepared is None:
         point, solved = solve_case(structure, forcing, job.start, job.question.plan, job.history)
         refuse_mechanisms(structure)
     else:
-        point, solved = prepared
+        point, solved = prepared.point, prepared.solved
     job.solved = solved
     if not solved.settled:
         return None
@@ -197,15 +202,21 @@ def _attempt(job: Job, prepared: tuple[Point, Solved] | None = None) -> Origin |
     if reported.broken or not result.certificate.passed or reported.blind:
         result.cause = reported.broken or refusal(result.certificate, blind=reported.blind)
         return None
-    result.cause = None
-    result.state, result.converged = reported.state, True
-    result.penalty_u, result.penalty_r = reported.penalty_u, reported.penalty_r
-    result.penalty_effect = reported.penalty_effect
-    result.digits = reported.digits
-    result.warnings += tuple(job.history.notes) + _remarks(structure, reported)
+    result.warnings += tuple(job.history.notes)
+    accept(structure, result, reported)
     datum = _all_sliders(structure, reported.state.datum_end)
     whole = Point(reported.state.u, reported.state.u_low)
     return Origin(forcing, whole, datum, job.question.loads, job.start.lock)
+
+
+def accept(structure: Structure, result: CaseResult, reported: Reported) -> None:
+    """Give a case its certified numbers and what is to be said of them."""
+    result.cause = None
+    result.state, result.converged = reported.state, True
+    result.rigid, result.penalty_r = reported.rigid, reported.penalty_r
+    result.penalty_effect = reported.penalty_effect
+    result.digits = reported.digits
+    result.warnings += _remarks(structure, reported)
 
 
 def refusal(certificate: Certificate, *, blind: bool = False) -> str:
@@ -241,14 +252,13 @@ def _remarks(structure: Structure, reported: Reported) -> tuple[str, ...]:
     if reported.singular and held is not None:
         motions = null_motions(structure, held[0], held[1])
         remarks += [f"undetermined: {motion.text.split(':')[0]}" for motion in motions]
-    return tuple(remarks) + _pushing_hangers(structure.system, reported)
+    return tuple(remarks) + _pushing_hangers(structure, reported)
 
 
-def _pushing_hangers(system: System, reported: Reported) -> tuple[str, ...]:
-    c = system.contacts
+def _pushing_hangers(structure: Structure, reported: Reported) -> tuple[str, ...]:
+    system, c = structure.system, structure.system.contacts
     return tuple(
-        f"{card.name} pushes down: a hanger can only pull"
-        for i, card in enumerate(system.cards)
-        if card.kind == "hanger"
-        and float((reported.state.reaction[c.card == i] @ system.up).sum()) < 0.0
+        f"{system.cards[i].name} pushes down: a hanger can only pull"
+        for i in structure.hangers
+        if float((reported.state.reaction[c.card == i] @ system.up).sum()) < 0.0
     )

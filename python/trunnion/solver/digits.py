@@ -1,5 +1,6 @@
 """How many digits a factor and an answer are good for."""
 
+from dataclasses import dataclass
 from math import log10
 
 import numpy as np
@@ -34,7 +35,7 @@ def _loss(structure: Structure, load: F8, p: F8) -> float:
     if held[2] > 0.0:  # it solves another matrix
         return 0.0 if _is_singular(structure) else np.inf
     correction = structure.solve(load - structure.product(held[0], held[1], p))
-    return _size(structure, correction) / max(_size(structure, p), 1e-300)
+    return travel(structure, correction) / max(travel(structure, p), 1e-300)
 
 
 def _is_singular(structure: Structure) -> bool:
@@ -66,24 +67,52 @@ def has_stiffness(structure: Structure, tangent: F8, slider_tangent: F8) -> bool
         structure.extend(before)
 
 
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Scattered:
+    """What errors of one part in the input do to the displacements of an answer.
+
+    p : (n_node, 6) movements they cause, in parts; linear in the loads where nothing can change.
+    loss : part of such a solution that the factor gets wrong.
+    """
+
+    p: F8
+    loss: float
+
+
+def scatter_input(
+    structure: Structure, point: Point, law: Sliding, forcing: Forcing, response: Response
+) -> Scattered:
+    """Change what an answer stands on by up to one part, with scattered signs.
+
+    Every member's end forces are changed as a change of its stiffness by one part would do (rigid
+    motion makes no force, so none is made of it), and so are those that would hold back its free
+    deformation, and the loads at nodes.
+    """
+    load = _scattered(point.u.size, 2).reshape(-1, 6) * forcing.nodal
+    for start, at in enumerate((point, Point.zero(structure.n_node))):
+        end = structure.member_forces(at, forcing, np.zeros_like(load))
+        signs = _scattered(len(end), start)
+        for side in (0, 1):
+            np.add.at(load, structure.members.ends[:, side], signs[:, None] * end[:, side])
+    load[structure.absent] = 0.0
+    p = structure.solve(load)
+    loss = _loss(structure, load, p)
+    if (response.mode == SLIP).any():
+        p = coupled_step(structure, response, law, load)
+    return Scattered(p, loss)
+
+
 def digits_left(
-    structure: Structure,
-    point: Point,
-    law: Sliding,
-    forcing: Forcing,
-    response: Response,
-    correction: float,
+    structure: Structure, size: float, scattered: Scattered, correction: float
 ) -> tuple[float, str, bool]:
     """Digits of the displacements that do not hang on the last bit of the input.
 
-    Every member's end forces are changed by up to one part, with scattered signs, as a change of
-    its stiffness by one part would do (rigid motion makes no force, so none is made of it), and
-    so are those that would hold back its free deformation, and the loads at nodes.  What this
-    moves, of the largest displacement, is the number of parts that an error of one part in the
-    input costs: a structured condition number in the sense of Skeel (1979).
+    What errors of one part in the input move, of the largest displacement, is the number of parts
+    that they cost: a structured condition number in the sense of Skeel (1979).
 
     Parameters
     ----------
+    size : of the displacements, see `travel` [m].
     correction : the next correction of the displacements, relative: digits not reached.
 
     Returns
@@ -91,25 +120,12 @@ def digits_left(
     Digits left of the 16 that doubles have, the freedom that loses most ("node 40 RX"), and
     whether the factor solves so badly that no correction found with it can be trusted.
     """
-    load = _scattered(point.u.size, 2).reshape(-1, 6) * forcing.nodal
-    for start, at in enumerate((point, Point.zero(structure.n_node))):
-        end = structure.residual(at, law, forcing)[1]
-        signs = _scattered(len(end), start)
-        for side in (0, 1):
-            np.add.at(load, structure.members.ends[:, side], signs[:, None] * end[:, side])
-    load[structure.absent] = 0.0
-    p = structure.solve(load)
-    blind = not _loss(structure, load, p) <= BLIND
-    if (response.mode == SLIP).any():
-        p = coupled_step(structure, response, law, load)
-    moved = np.abs(p)
-    moved[:, 3:] *= structure.reach
+    moved = np.abs(scattered.p) * structure.levers
     node, freedom = np.unravel_index(int(moved.argmax()), moved.shape)
     name = f"node {structure.system.labels[structure.kept[node]]} {FREEDOMS[freedom]}"
-    size = max(_size(structure, point.u), 1e-300)
-    lost = max(log10(max(float(moved[node, freedom]) / size, 1.0)), 0.0)
+    lost = max(log10(max(float(moved[node, freedom]) / max(size, 1e-300), 1.0)), 0.0)
     reached = -log10(max(correction, 1e-300))
-    return min(DIGITS - lost, reached), name, blind
+    return min(DIGITS - lost, reached), name, not scattered.loss <= BLIND
 
 
 def _scattered(n: int, start: int) -> F8:
@@ -119,7 +135,6 @@ def _scattered(n: int, start: int) -> F8:
     return signs
 
 
-def _size(structure: Structure, p: F8) -> float:
-    """Largest movement; a rotation counts with what it moves over the largest element."""
-    move, turn = np.abs(p[:, :3]).max(initial=0.0), np.abs(p[:, 3:]).max(initial=0.0)
-    return float(max(move, turn * structure.reach))
+def travel(structure: Structure, p: F8) -> float:
+    """Largest movement [m]; a rotation counts with what it moves over the largest element."""
+    return float((np.abs(p) * structure.levers).max(initial=0.0))

@@ -1,5 +1,7 @@
 """Cases of a structure whose contacts cannot change: one factor, all right-hand sides at once."""
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from trunnion.solver.friction import Solved
@@ -8,8 +10,19 @@ from trunnion.solver.quantities import Forcing, Point
 from trunnion.solver.structure import Structure
 
 
-def solve_linear(structure: Structure, forcings: list[Forcing]) -> list[tuple[Point, Solved]]:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Prepared:
+    """A linear case that was solved together with others."""
+
+    forcing: Forcing
+    point: Point
+    solved: Solved
+
+
+def solve_linear(structure: Structure, forcings: list[Forcing]) -> list[Prepared]:
     """Solve every case in one call of the solver; an answer each."""
+    if not forcings:
+        return []
     law = structure.frictionless()
     points = [Point.zero(structure.n_node) for _ in forcings]
     starts = [
@@ -22,5 +35,6 @@ def solve_linear(structure: Structure, forcings: list[Forcing]) -> list[tuple[Po
     for point, move in zip(points, moves, strict=True):
         point.move(np.ascontiguousarray(move))
     return [
-        (point, Solved(True, start[2], law)) for point, start in zip(points, starts, strict=True)
+        Prepared(forcing, point, Solved(True, start[2], law))
+        for forcing, point, start in zip(forcings, points, starts, strict=True)
     ]

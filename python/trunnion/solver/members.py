@@ -167,6 +167,18 @@ def end_forces(
     return whole, end
 
 
+def expand(members: Members, system: System, v: F8) -> F8:
+    """Displacements of all nodes for those `v` of the equations, without loads (n_node, 6)."""
+    if members.chains is None:
+        return v
+    six, every = np.zeros((len(members.ends), 6)), np.zeros((members.elements, 6))
+    none = np.zeros((0, 3))
+    inside = Inside(every, every, np.zeros((len(system.labels), 6)))
+    still = Forcing(six, six, np.zeros_like(v), inside, none, none, none, 1.0)
+    point, bias = Point(v, np.zeros_like(v)), np.zeros_like(six)
+    return end_forces(members, system, still, point, np.zeros_like(v), bias, most=1)[0].u
+
+
 def member_end_forces(members: Members, forcing: Forcing, point: Point, r: F8) -> F8:
     """(n_member, 2, 6) forces on the members at their ends, taken off `r`."""
     if not len(members.ends):

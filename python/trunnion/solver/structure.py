@@ -3,6 +3,7 @@
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from trunnion import kernels
 from trunnion.arrays import F8, I4, Loads, System
@@ -98,7 +99,8 @@ class Structure:
     def turn_to(self, system: System, ledger: Ledger) -> None:
         """Serve a system with the same numbers, and count work in another ledger from now on."""
         self.system, self.ledger = system, ledger
-        self.__dict__.pop("full", None)
+        for name in ("full", "hangers"):
+            self.__dict__.pop(name, None)
         if self.box.spd is not None:
             ledger.begin(self.box, self.box.spd.work)
         if self.parent is not None:
@@ -174,11 +176,26 @@ class Structure:
         return max(1.0, float(np.ptp(xyz, axis=0).max())) if len(xyz) else 1.0
 
     @cached_property
+    def turning(self) -> NDArray[np.intp]:
+        """Contacts that resist rotations."""
+        return np.flatnonzero(self.contacts.rotational)
+
+    @cached_property
+    def hangers(self) -> tuple[int, ...]:
+        """Cards that are hangers."""
+        return tuple(i for i, card in enumerate(self.system.cards) if card.kind == "hanger")
+
+    @cached_property
     def reach(self) -> float:
         """Length of the largest element [m]; 1 where there is none."""
         arm = self.members.arm
         d: F8 = np.sqrt((arm * arm).sum(axis=1))
         return float(d.max(initial=0.0)) or 1.0
+
+    @cached_property
+    def levers(self) -> F8:
+        """(6,) what a movement of one in each freedom counts, a rotation over `reach` [m]."""
+        return np.array([1.0] * 3 + [self.reach] * 3)
 
     @cached_property
     def scale(self) -> float:
@@ -259,9 +276,12 @@ class Structure:
         """Out-of-balance force at the nodes, end forces of the members, support response."""
         r = forcing.nodal.copy()
         response = self.respond(point, sliding, forcing, r)
-        end = member_end_forces(self.members, forcing, point, r)
+        return r, self.member_forces(point, forcing, r), response
+
+    def member_forces(self, point: Point, forcing: Forcing, r: F8) -> F8:
+        """End forces (n_member, 2, 6) of the members, taken off r."""
         self.ledger.add(elements=len(self.members.ends))
-        return r, end, response
+        return member_end_forces(self.members, forcing, point, r)
 
     def exact(
         self, point: Point, sliding: Sliding, forcing: Forcing, bias: F8
@@ -279,13 +299,6 @@ class Structure:
     def unbiased(self) -> F8:
         """Start of the `bias` of `exact`."""
         return np.zeros((len(self.members.ends), 6))
-
-    def expand(self, v: F8) -> F8:
-        """Displacements of all nodes for those of the equations, without loads (n_node, 6)."""
-        point, bias = Point(v, np.zeros_like(v)), self.unbiased()
-        r = np.zeros_like(v)
-        every, _ = end_forces(self.members, self.system, self.still, point, r, bias, most=1)
-        return every.u
 
     def search(
         self, point: Point, sliding: Sliding, forcing: Forcing, p: F8, work: tuple[float, float]
@@ -391,9 +404,8 @@ class Structure:
     def product(self, tangent: F8, slider_tangent: F8, v: F8) -> F8:
         """K v with the members' part formed from deformations; zero at absent freedoms."""
         v = np.ascontiguousarray(v)
-        point = Point(v, np.zeros_like(v))
-        r, _, response = self.residual(point, self.frictionless(), self.still)
-        self.scatter(-response.reaction, r)
+        r = np.zeros_like(v)
+        self.member_forces(Point(v, np.zeros_like(v)), self.still, r)
         self.scatter(-np.einsum("cij,cj->ci", tangent, self.gather(v)), r)
         self.sliders_product(slider_tangent, v, r)
         r[self.absent] = 0.0

@@ -1,21 +1,61 @@
 """From a settled point to reported numbers: refinement, state, corrections, penalty effect."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 
 from trunnion.arrays import ENGAGED, F8, OPEN, SLIP, State
 from trunnion.solver.convergence import judge
 from trunnion.solver.coupled import coupled_step
-from trunnion.solver.digits import digits_left
+from trunnion.solver.digits import Scattered, digits_left, scatter_input, travel
+from trunnion.solver.members import expand
 from trunnion.solver.newton import tangent_factor
 from trunnion.solver.quantities import Forcing, Point, Response, Sliding
 from trunnion.solver.structure import Structure
 
 REFINEMENTS = 8
 SHARP = 1e-13  # next correction that ends the refinement, relative
+BALANCED = 1e-12  # out-of-balance force that does, too, of the largest support force
 CHORD = 1e-4  # difference of slider tangents for which the factor at hand will do
 NOTHING = 1e-6  # a displacement that the penalty effect does not speak of [m]
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Terms:
+    """What is linear in the loads where no contact can change: sums of answers sum it.
+
+    u, rigid_u : (n_node, 6) displacements and how rigid supports would change them, at the nodes
+        of the equations.
+    reaction, rigid_r : (n_contact, 3) the same of the contacts, stand-ins included.
+    scattered : what errors in the input would do.
+    """
+
+    u: F8
+    rigid_u: F8
+    reaction: F8
+    rigid_r: F8
+    scattered: Scattered
+
+    def sizes(self, structure: Structure) -> "Sizes":
+        """What changes are measured against."""
+        return Sizes(travel(structure, self.u), *support_sizes(structure, self.reaction))
+
+    def penalty_effect(self, structure: Structure, sizes: "Sizes") -> dict[str, float]:
+        """Relative change of displacements and reactions on rigid supports."""
+        moved = travel(structure, self.rigid_u) / max(sizes.travel, NOTHING)
+        pushed, turned = _halves(structure, self.rigid_r)
+        return {"u": moved, "R": max(pushed / sizes.force, turned / sizes.moment)}
+
+
+class Sizes(NamedTuple):
+    """Largest displacement (or what the largest rotation moves), force and moment of supports."""
+
+    travel: float
+    force: float
+    moment: float
 
 
 @dataclass(slots=True, eq=False, repr=False)
@@ -25,13 +65,14 @@ class Reported:
     state: State
     correction_u: float
     correction_r: float
-    penalty_u: F8
+    rigid: Callable[[], F8]
     penalty_r: F8
     penalty_effect: dict[str, float]
     digits: tuple[float, str]  # left of 16, and the freedom that lost most
     blind: bool  # the corrections were found with a factor that has no digits
     singular: bool  # the tangent at the answer needed a proximal term
     broken: str | None  # the convergence rule that the last two iterations do not meet
+    terms: Terms
 
 
 def report_numbers(
@@ -50,23 +91,37 @@ def report_numbers(
             p = coupled_step(structure, response, law, r)
             trial = point.copy()
             trial.move(p)
-            after = structure.exact(trial, law, forcing, bias)
-            left = corrections(structure, p, point, response, after[3])
+            then = structure.respond(trial, law, forcing, np.zeros_like(r))
+            left = corrections(structure, p, point, response, then)
             # a reaction is a difference of displacements: it may lag behind them by one pass
             better = any(new < old for new, old in zip(left, best, strict=True))
-            if not better or max(left) <= SHARP or i == REFINEMENTS - 1:
+            fine = max(left) <= SHARP and unbalance(structure, r, response) <= BALANCED
+            if not better or fine or i == REFINEMENTS - 1:
                 break
             best = left
             point.become(trial)
-            r, every, end, response = after
-        broken = judge(response, after[3], p, None, point.u).broken
-        penalty_u, penalty_r, effect = _penalty(structure, point, response)
-        left_over, where, blind = digits_left(structure, point, law, forcing, response, left[0])
-        digits = left_over, where
+            r, every, end, response = structure.exact(point, law, forcing, bias)
+        broken = judge(response, then, p, None, point.u).broken
+        rigid = _penalty(structure, point, response)
+        scattered = scatter_input(structure, point, law, forcing, response)
     finally:
         structure.ledger.refining = False
     state = _state(structure, every, law, response, end)
-    return Reported(state, *left, penalty_u, penalty_r, effect, digits, blind, shift > 0.0, broken)
+    terms = Terms(point.u, rigid[0], response.reaction, rigid[1], scattered)
+    sizes = terms.sizes(structure)
+    reached, where, blind = digits_left(structure, sizes.travel, scattered, left[0])
+    return Reported(
+        state,
+        *left,
+        partial(expand, structure.members, structure.system, rigid[0]),
+        rigid[1][: len(structure.system.contacts.node)],
+        terms.penalty_effect(structure, sizes),
+        (reached, where),
+        blind,
+        shift > 0.0,
+        broken,
+        terms,
+    )
 
 
 def _factor(structure: Structure, response: Response) -> float:
@@ -83,56 +138,56 @@ def corrections(
     structure: Structure, p: F8, point: Point, before: Response, after: Response
 ) -> tuple[float, float]:
     """Size of a correction p relative to the largest displacement and reaction."""
-    u = _travel(structure, point.u)
-    du = _travel(structure, p)
+    u = travel(structure, point.u)
+    du = travel(structure, p)
     rubbed = after.friction - before.friction
-    pushed = after.reaction - before.reaction
-    return du / max(u, 1e-300), _relative(structure, pushed, before, rubbed)
+    force, moment = support_sizes(structure, before.reaction)
+    push, turn = _halves(structure, after.reaction - before.reaction)
+    return du / max(u, 1e-300), max(push / force, turn / moment, _largest(rubbed) / force)
 
 
-def _relative(
-    structure: Structure, change: F8, response: Response, rubbed: F8 | None = None
-) -> float:
-    """Change of reactions (and friction) relative to the largest force and moment."""
-    rotational = structure.contacts.rotational
-    force = max(1.0, _largest(response.reaction[~rotational]))
-    moment = max(force, _largest(response.reaction[rotational]))
-    slide = 0.0 if rubbed is None else _largest(rubbed) / force
-    return max(_largest(change[~rotational]) / force, _largest(change[rotational]) / moment, slide)
+def unbalance(structure: Structure, r: F8, response: Response) -> float:
+    """Out-of-balance force relative to the largest support force; 0 without supports' forces."""
+    force, moment = _halves(structure, response.reaction)
+    lever = max(moment, 0.01 * force)
+    if force == 0.0:
+        return 0.0
+    return max(_largest(r[:, :3]) / force, _largest(r[:, 3:]) / lever)
 
 
-def _travel(structure: Structure, u: F8) -> float:
-    """Largest displacement, or what the largest rotation moves over the largest element [m]."""
-    move, turn = _largest(u[:, :3]), _largest(u[:, 3:])
-    return max(move, turn * structure.reach)
+def support_sizes(structure: Structure, reaction: F8) -> tuple[float, float]:
+    """Largest force and moment of the supports, at least 1 N and that force [N, N m]."""
+    force, moment = _halves(structure, reaction)
+    force = max(1.0, force)
+    return force, max(force, moment)
+
+
+def _halves(structure: Structure, a: F8) -> tuple[float, float]:
+    """Largest of forces and of moments of contacts."""
+    size, turning = np.abs(a), structure.turning
+    moment = float(size[turning].max(initial=0.0))
+    size[turning] = 0.0
+    return float(size.max(initial=0.0)), moment
 
 
 def _largest(a: F8) -> float:
     return float(np.abs(a).max(initial=0.0))
 
 
-def _penalty(
-    structure: Structure, point: Point, response: Response
-) -> tuple[F8, F8, dict[str, float]]:
-    """First-order corrections to rigid supports.
+def _penalty(structure: Structure, point: Point, response: Response) -> tuple[F8, F8]:
+    """First-order corrections to rigid supports: displacements and reactions.
 
     One solve on the same factor with the reactions as loads on the closed contacts: a step of
     the method of multipliers (Hestenes 1969), after which the penetration is of second order.
     """
     c = structure.contacts
-    n = len(structure.system.contacts.node)
     closed = c.penalty & (np.abs(response.reaction).max(axis=1) > 0.0)
     load = np.zeros_like(point.u)
     pushed = np.where(closed[:, None], response.reaction, 0.0)
     structure.scatter(pushed, load)
     du = structure.solve(load)
     dw = structure.gather(du)
-    dr = pushed - np.einsum("cij,cj->ci", response.tangent, dw)
-    effect = {
-        "u": _travel(structure, du) / max(_travel(structure, point.u), NOTHING),
-        "R": _relative(structure, dr, response),
-    }
-    return structure.expand(du), dr[:n], effect
+    return du, pushed - np.einsum("cij,cj->ci", response.tangent, dw)
 
 
 def _state(structure: Structure, point: Point, law: Sliding, response: Response, end: F8) -> State:
