@@ -81,7 +81,11 @@ def _signature(
     """Leave out what makes a result, which a user never does, and what arrays are made of."""
     if what == "class" and _is_data(obj):
         return "", ""
-    return tuple(text and ARRAY.sub("~numpy.ndarray", text) for text in (words, back))
+    return _short(words), _short(back)
+
+
+def _short(text: str | None) -> str | None:
+    return text and ARRAY.sub("~numpy.ndarray", text)
 
 
 def setup(app: Any) -> dict[str, bool]:
