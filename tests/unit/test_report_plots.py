@@ -189,7 +189,7 @@ def test_bends_are_arcs_and_pipes_as_wide_as_their_diameter(line):
     corner = np.array([12.0, 0.0, 0.0])
     centre = corner + np.array([-0.381, 0.0, 0.381])
     np.testing.assert_allclose(np.linalg.norm(arc - centre, axis=1), 0.381, rtol=1e-9)
-    assert len(arc) >= 10
+    assert len(arc) == 19  # 5 degrees apart
     axes = drawn["isometric"].axes[0]
     quads = [p.vertices[:4] for c in axes.collections for p in c.get_paths() if len(p) == 5]
     widths = [np.linalg.norm(q[0] - q[3]) for q in quads]
@@ -242,9 +242,9 @@ def test_the_table_says_what_the_text_report_says(line):
     table = state_table(results["OPE"], units)
     shown = said(drawn["OPE.supports"])
     for _, row in rows_of_states(results["OPE"], units):
-        if row.name.endswith("ANCHOR"):
-            continue
         assert row.name in shown
+        if row.name.endswith(("ANCHOR", "moment")):
+            continue
         line_ = next(r for r in table.splitlines() if r.split()[:2] == row.name.split()[:2])
         assert row.cells[0] in line_
         if row.cells[1]:
@@ -470,6 +470,27 @@ def test_labels_take_no_place_that_is_taken():
         assert abs(label.y - 30.0) >= 3.0 + 4.0
         assert 10.0 <= label.x <= 90.0
         assert 4.0 <= label.y <= 56.0
+
+
+def test_what_is_left_out_of_a_file_stands_in_every_picture_and_north_where_it_is_known(tmp_path):
+    from pcf_lines import everything
+
+    from trunnion.formats import read_any
+    from trunnion.formats.options import Options
+
+    (tmp_path / "line.pcf").write_text(everything())
+    options = Options(anchors=("open-ends",))
+    model = read_any(tmp_path / "line.pcf", permissive=True, options=options).model
+    n = len(model.origin.left_out)
+    assert n > 1
+    drawn, _ = made(model)
+    for name, figure in drawn.items():
+        assert f"LEFT OUT: {n} features of line.pcf" in said(figure), name
+    assert "Y north" in said(drawn["isometric"])
+
+
+def test_north_is_not_invented(line):
+    assert "north" not in said(line[2]["isometric"])
 
 
 def test_names_of_files_are_safe_and_stay_apart():

@@ -19,6 +19,7 @@ from trunnion.report.plots.supportstates import glyph_looks
 from trunnion.report.units import ReportUnits
 from trunnion.results.supports import card_loads, card_nodes
 
+NOTE = "loads are those of the pipe ON THE RESTRAINT"
 MOST, ACROSS = 6, 3
 PANEL = 5.0  # height of a row of panels [in]
 CORNER = 1.15  # height of the strip with the triad [in]
@@ -37,7 +38,7 @@ def answers(found: Subject, spread: Spread, units: ReportUnits, title: str) -> F
     what = (
         f"{spread.case} = {shown[0].text}:  {len(every)} certified answers to the same loads{more}"
     )
-    figure = page(title, what, "loads are those of the pipe ON THE RESTRAINT", height=height)
+    figure = page(title, what, found.noted(NOTE), height=height)
     wide = (WIDTH - 2 * EDGE) / min(ACROSS, len(shown))
     most = max(float(np.linalg.norm(card_loads(c)[:, :3], axis=1).max(initial=0.0)) for c in shown)
     apart = _apart(shown)

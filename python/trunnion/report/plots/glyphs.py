@@ -65,9 +65,11 @@ def stand(system: System, frame: Frame, found: Course) -> Stand:
     half = half_widths(frame, found.radius)
     first, last = found.lines.first[:-1], found.lines.first[1:] - 1
     tangent = end_axes(system)[:, :, 0]
+    widest = np.argsort(system.od, kind="stable")  # the last one at a node stands: the run
     for end, point in ((1, last), (0, first)):
         np.maximum.at(radius, system.ends[:, end], half[point])
-        axis[system.ends[:, end]] = tangent[:, end]
+    for e in widest.tolist():
+        axis[system.ends[e]] = tangent[e]
     many = len(system.cards) > MANY
     at = system.xyz[nodes]
     room = SHARE * min(spacing(frame, at), crowding(frame, at))
@@ -186,7 +188,7 @@ def _direction(s: Stand, system: System, card: int, contact: int) -> Glyph:
             if kind == "spring":
                 found.wires.append(_coil(at + r * out, out, 1.9 * g, 0.35 * g))
                 found.bodies.append(_box(at + (r + 1.9 * g) * out, out, (0.1, 0.5, 0.5), g))
-            elif kind != "rest" and abs(out @ s.axis[card]) > LENGTHWISE:
+            elif kind not in ("rest", "guide") and abs(out @ s.axis[card]) > LENGTHWISE:
                 below = at - (r + 0.42 * g) * _across(s.axis[card], s.up)
                 found.bodies.append(_cone(below + 0.12 * g * out, out, g, 0.34 * g, s.sides))
             elif kind == "guide":

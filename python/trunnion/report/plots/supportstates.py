@@ -38,7 +38,7 @@ def support_states(found: Subject, case: CaseResult, units: ReportUnits, title: 
     mixed = case.gathered is not None
     system, course = found.system if mixed else case.system, found.course
     what = "loads on restraints" if mixed else "states of restraints and loads on them"
-    figure = page(title, f"{case.name} = {case.text}:  {what}", _note(case))
+    figure = page(title, f"{case.name} = {case.text}:  {what}", found.noted(_note(case)))
     frame = frame_of(figure, PLACE, found)
     standing = stand(system, frame, course)
     bodies = glyphs(system, standing)
@@ -50,7 +50,7 @@ def support_states(found: Subject, case: CaseResult, units: ReportUnits, title: 
     triad(frame, system.up, found.north)
     length_bar(frame, units.length)
     _labels(frame, found, case, bodies, arrows)
-    _panel(figure, case, units, frame, arrows)
+    _panel(figure, case, units, arrows)
     return figure
 
 
@@ -126,9 +126,8 @@ def _labels(
     )  # fmt: skip
 
 
-def _panel(
-    figure: Figure, case: CaseResult, units: ReportUnits, frame: Frame, arrows: Arrows
-) -> None:
+def _panel(figure: Figure, case: CaseResult, units: ReportUnits, arrows: Arrows) -> None:
+    """Explain states and arrows, and list the restraints."""
     x, y = WIDTH - EDGE - PANEL, HEIGHT - TOP - 0.05
     if case.gathered is None:
         levels = card_levels(case)
