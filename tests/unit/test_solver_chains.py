@@ -133,7 +133,7 @@ def test_springs_are_never_inside():
 
 
 def test_loads_that_cancel_inside_a_chain_leave_the_rest_exact():
-    """A pair of 4e10 N stretches one pipe; its neighbour carries 100 N to the last digit."""
+    """A pair of 6e11 N stretches one pipe; its neighbour carries 100 N to the last digit."""
     deck = """\
 DEFAULT SHEAR=OFF
 MATERIAL S E=2e11 NU=0.3 ALPHA=12e-6 DENSITY=7850
@@ -143,8 +143,8 @@ PIPE 10 20 DX=2 DZ=5 SECTION=THIN
 PIPE 20 30 DX=40 DY=-150 DZ=30 SECTION=FAT
 ANCHOR 10
 FORCE 30 F1 FX=10 FZ=100
-FORCE 20 F2 FX=-1.6e10 FY=6e10 FZ=-1.2e10
-FORCE 30 F2 FX=1.6e10 FY=-6e10 FZ=1.2e10
+FORCE 20 F2 FX=-1.6e11 FY=6e11 FZ=-1.2e11
+FORCE 30 F2 FX=1.6e11 FY=-6e11 FZ=1.2e11
 CASE A = F1
 CASE B = F1 + F2
 """
@@ -152,5 +152,5 @@ CASE B = F1 + F2
     a, b = (found[name].state for name in "AB")
     at = found["A"].system.labels.index("20")
     # refinement ends where the next correction is below 1e-13
-    assert np.abs(b.u[at] - a.u[at]).max() <= 2e-13 * np.abs(a.u[at]).max()
+    assert np.abs(b.u[at] - a.u[at]).max() <= 1e-12 * np.abs(a.u[at]).max()
     assert found["B"].certificate.worst < 1e-10
