@@ -2,6 +2,7 @@
 #   make demo     solve two piping systems, reports in demo/
 #   make test     every test                        (make test ARGS="-k friction -x")
 #   make lint     ruff, mypy, fortitude
+#   make docs     the site of docs/, in build/docs (needs no network; warnings are errors)
 #   make stress   thousands of extreme scenes    (make stress N=20000; goes on where it stopped)
 #   make bench    time, error and memory, peers, sweeps: tables and pictures in build/bench
 #                 (bench-quick, bench-docs, bench-million, bench-peers; OUT=folder ONLY="racks whole")
@@ -20,7 +21,7 @@ ONLY :=
 ARGS :=
 N := 20000
 
-.PHONY: demo test stress lint debug-test build clean
+.PHONY: demo test docs verification-record stress lint debug-test build clean
 .PHONY: bench bench-quick bench-docs bench-million bench-peers
 
 demo: build
@@ -33,6 +34,14 @@ demo: build
 
 test: build
 	@$(BIN)/pytest $(ARGS)
+
+docs: build
+	@$(BIN)/python -m sphinx -q -W --keep-going -b html -d build/doctrees docs build/docs
+	@echo build/docs/index.html
+
+# docs/verification.md, from what the tests find
+verification-record: build
+	@VERIFICATION_RECORD=write $(BIN)/pytest -q tests/verification
 
 stress: build
 	@$(BIN)/python tests/stress/long.py $(N) build/stress

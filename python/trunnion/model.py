@@ -254,6 +254,14 @@ class HangerDesign:
     method: str = "HOT"  # the weight is balanced hot, or COLD
     series: str | None = None  # of the table; None: all, in their order
     operating: str | None = None  # case of the travel; None: first with weight and heat
+    table: str = "GENERIC"  # of the library, where the model has no sizes of its own; or ANVIL
+    free: str | None = None  # nodes that are vertically free while the weight is balanced
+    free2: str | None = None
+
+    @property
+    def freed(self) -> tuple[str, ...]:
+        """Labels of the nodes that are free while the weight is balanced."""
+        return tuple(node for node in (self.free, self.free2) if node is not None)
 
 
 @frozen

@@ -153,16 +153,50 @@ def test_codes_along_the_axes(load, code, word):
     assert found == [word]
 
 
-@pytest.mark.parametrize("code", [8, 9, 11, 12, 13, 14, 15, 19, 33, 62])
+def words_of(load, *codes, permissive=False, cosines=(0.0, 1.0, 0.0)):
+    slots = [(30, code, None, None, None, None, cosines, "") for code in codes]
+    found = load(one(restraints("14.00", *slots)), permissive=permissive)
+    return [d.word for s in found.model.supports for d in s.directions], found.left_out
+
+
+def test_guides_and_stops_come_in_threes(load):
+    """A real file has 9 and 12 with the placeholder 0 0 1 on what its tags call guides, stops."""
+    placeholder = (0.0, 0.0, 1.0)
+    assert words_of(load, 9, 12, cosines=placeholder) == (["GUIDE", "LIMIT"], ())
+
+
+@pytest.mark.parametrize(("code", "word"), [(19, "-X"), (20, "-Y"), (24, "+RZ"), (27, "-RZ")])
+def test_a_code_known_by_its_place_in_the_list_only_is_named(load, code, word):
+    cosines = tuple(float(axis == word[-1]) for axis in "XYZ")
+    with pytest.raises(DeckError, match=f"type {code}: what it means follows from its place"):
+        words_of(load, code, cosines=cosines)
+    words, left_out = words_of(load, code, permissive=True, cosines=cosines)
+    assert (words, len(left_out)) == ([word], 1)
+
+
+@pytest.mark.parametrize("code", [34, 62, 1.5, -3])
 def test_codes_that_nobody_has_explained_are_named(load, code):
-    slot = restraints("14.00", (30, code, None, None, None, None, (0.0, 1.0, 0.0), ""))
     with pytest.raises(DeckError, match=f"element 20-30, node 30: .*type {code}") as error:
-        load(one(slot))
+        words_of(load, code)
     assert "--permissive" in said(error)
-    assert load(one(slot), permissive=True).left_out[0].element == "element 20-30, node 30"
+    words, left_out = words_of(load, code, permissive=True)
+    assert (words, left_out[0].element) == ([], "element 20-30, node 30")
 
 
-def test_a_code_list_of_the_guide_is_not_guessed(load):
+def test_a_yielding_rotation_is_named_and_stands_in_as_rigid(load):
+    """31 to 33 of real files: K2 in the gap, the yield moment in the friction, on couplings."""
+    slot = restraints("14.00", (30, 31, None, 1.0, 1535.0, None, (1.0, 0.0, 0.0), ""))
+    with pytest.raises(DeckError, match="node 30: restraint RX2: a bilinear restraint"):
+        load(one(slot))
+    (made,) = load(one(slot), permissive=True).model.supports[1].directions
+    assert (made.word, made.gap, made.mu) == ("RX", (0.0, 0.0), None)
+
+
+def test_a_file_with_the_codes_of_the_guide_is_named_and_read_by_the_guide(load):
+    """Such files have 14 for +Y, 8 for GUI, 9 for LIM, 1 for ANC: those of the neutral file."""
+    with pytest.raises(DeckError, match="written by another program"):
+        words_of(load, 14, 8, 9)
+    assert words_of(load, 14, 8, 9, permissive=True)[0] == ["+Y", "GUIDE", "LIMIT"]
     slot = restraints("14.00", (30, 1, None, None, None, None, (0.0, 0.0, 0.0), ""))
     with pytest.raises(DeckError, match="written by another program"):
         load(one(slot))

@@ -258,8 +258,9 @@ class Cii:
             lines += self.reals(values if self.new else values[:10])
             if self.new:
                 lines += [self.string(x.get("tag", "")), self.string("")]
-        for _ in h:
-            lines += self.integers([0, 0, 0, 0])
+        for x in h:
+            one, code, other, more = x.get("free", (0, 0, 0, 0))
+            lines += self.integers([one, other, code, more])
         lines += self.integers(x.get("number", 1) for x in h)
         lines += self.integers(x.get("table", 0) for x in h)
         lines += self.integers(0 for _ in h)

@@ -1,8 +1,16 @@
-"""Damage text files at random, in the ways that files are damaged."""
+"""Damage text files at random, in the ways that files are damaged, and read what comes of it."""
 
 import os
 import random
 import re
+import resource
+import signal
+from contextlib import contextmanager
+
+from trunnion.errors import DeckError, ModelError
+
+MEMORY = 1_000_000  # KiB that a run over all variants may add to the process
+HANG = 60  # s that one variant may take
 
 WORDS = (
     *("nan", "-nan", "inf", "*************", "1e308", "-1e308", "1D+99", "9999.99", "-1.0101"),
@@ -23,6 +31,53 @@ def mutant(data: bytes, seed: int) -> bytes:
     for _ in range(rng.choice((1, 1, 1, 2, 3, 8))):
         data = rng.choice(_DAMAGES)(data, rng)
     return data
+
+
+def survive(data, read, usual):
+    """Read damaged variants; each ends in a model or in a named error.
+
+    Parameters
+    ----------
+    read : called with the bytes of a variant and whether to be permissive.
+    usual : number of variants where TRUNNION_FUZZ gives none.
+
+    Raises
+    ------
+    AssertionError : names the seed of a variant that ended otherwise, or took too much memory.
+    """
+    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    good, unnamed = 0, []
+    for seed in range(count(usual)):
+        damaged = mutant(data, seed)
+        for permissive in (False, True):
+            try:
+                with _limit():
+                    read(damaged, permissive)
+                good += 1
+            except (DeckError, ModelError) as error:
+                unnamed += [seed] * (not all(problem.text for problem in error.problems))
+            except Exception as error:
+                raise AssertionError(f"seed {seed}, permissive {permissive}") from error
+    assert not unnamed
+    assert good  # some damage is harmless
+    grown = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before
+    assert grown < MEMORY, f"{grown} KiB"
+
+
+@contextmanager
+def _limit():
+    """Let one variant take so long and no longer."""
+
+    def late(*_):
+        raise TimeoutError(f"more than {HANG} s")
+
+    old = signal.signal(signal.SIGALRM, late)
+    signal.alarm(HANG)
+    try:
+        yield
+    finally:
+        signal.alarm(0)
+        signal.signal(signal.SIGALRM, old)
 
 
 def _replace_word(data, rng):

@@ -7,7 +7,7 @@ import pytest
 import trunnion
 from trunnion.cases.hangers import designed, select
 from trunnion.deck.reader import read_text
-from trunnion.library.springs import generic_springs
+from trunnion.library.springs import anvil_springs, generic_springs
 from trunnion.model import HangerDesign, SpringSize, Support
 from trunnion.report.json import json_report
 from trunnion.report.text import text_report
@@ -166,3 +166,58 @@ def test_no_operating_case_is_told():
     deck = RISER.format(keys="", sizes="").replace("CASE OPE = W + H + T1\n", "")
     with pytest.raises(trunnion.ModelError, match="no case has weight and temperature"):
         trunnion.solve(read_text(deck, "deck.inp"))
+
+
+def test_the_makers_table_gives_the_springs_that_caesar_ii_selected():
+    """CAESAR II 14 on a relief line, hot load [N] and travel [mm]: figure and size it printed."""
+    table = anvil_springs()
+    for hot, travel, size in ((7538.97, -40.667, "98-11"), (7987.29, -22.357, "B-268-11")):
+        asked = Support("20", "hanger", design=HangerDesign(rod=0.0))
+        assert select(asked, hot, travel / 1e3, table).size == size
+    rates = {s.name: s.rate for s in table}
+    assert rates["98-11"] == pytest.approx(29770.3979, rel=1e-4)  # printed: 297.703979 N/cm
+    assert rates["B-268-11"] == pytest.approx(59540.7959, rel=1e-4)
+    assert len(table) == 23 * 5 + 2  # sizes 000 and 00 are of figure B-268 alone
+
+
+def test_the_table_of_a_hanger_is_named():
+    model = riser("TABLE=ANVIL")
+    results = trunnion.solve(model)
+    assert results.hangers[0].series in ("82", "B-268", "98", "TRIPLE", "QUADRUPLE")
+    assert "ANVIL table of the library" in text_report(results, model).decode()
+    with pytest.raises(trunnion.DeckError, match="series MEDIUM is not one of"):
+        riser("TABLE=ANVIL SERIES=MEDIUM")
+
+
+def test_an_anchor_that_is_freed_leaves_its_weight_to_the_hanger():
+    """A pipe clamped at 10 and 40, hanger at 30: FREE=40 has nothing vertical at 40, only there."""
+    text = """
+UNITS mm N bar C
+MATERIAL S E=200GPa ALPHA=12e-6 DENSITY=7850
+SECTION P OD=114.3 WALL=6.02
+OPERATE T1=200 TREF=20
+ANCHOR 10
+PIPE 10 20 DX=6000
+PIPE 20 30 DX=2000
+HANGER 30 DESIGN ROD=0 {free}
+PIPE 30 40 DX=2000
+ANCHOR 40
+CASE SUS = W + H
+CASE OPE = W + H + T1
+"""
+
+    def weighed(free):
+        (found,) = trunnion.solve(read_text(text.format(free=free), "deck.inp")).hangers
+        return found.hot
+
+    model = read_text(text.format(free=""), "deck.inp")
+    swapped = text.replace("HANGER 30 DESIGN ROD=0 {free}", "SUPPORT 30 Y")
+    held = trunnion.solve(read_text(swapped.replace(" + H", ""), "deck.inp"))["SUS"]
+    assert weighed("") == pytest.approx(held.supports["30"]["fy"], rel=1e-9)
+    let = swapped.replace("ANCHOR 40", "SUPPORT 40 X Z RX RY RZ").replace(" + H", "")
+    free = trunnion.solve(read_text(let, "deck.inp"))["SUS"]
+    assert weighed("FREE=40") == pytest.approx(free.supports["30"]["fy"], rel=1e-9)
+    assert abs(weighed("FREE=40") - weighed("")) > 300.0  # N
+    assert model.supports[1].kind == "hanger"
+    with pytest.raises(trunnion.DeckError, match="node 41 is not defined"):
+        read_text(text.format(free="FREE=41"), "deck.inp")

@@ -44,6 +44,15 @@ def test_carbon_steel_expansion_is_near_the_newer_table():
         assert expansion("A106-B", fahrenheit) == pytest.approx(total, abs=0.12)
 
 
+def test_grades_of_ii_d_have_its_total_expansion():
+    # ASME II-D 2001 Table TE-1 group 1, columns B [1e-6/F] and C [in/100 ft]
+    printed = {200: 1.0, 300: 1.9, 400: 2.8, 500: 3.7, 600: 4.7, 700: 5.7, 800: 6.8, 1100: 10.1}
+    for fahrenheit, total in printed.items():
+        for grade in ("A106-B-IID", "A335-P11-IID", "A335-P22-IID"):
+            assert expansion(grade, fahrenheit) == pytest.approx(total, abs=0.08)
+    assert at("A106-B-IID", 500).alpha == pytest.approx(1.8 * 7.3e-6, rel=1e-12)
+
+
 @pytest.mark.parametrize("grade", GRADES)
 def test_every_table_is_sorted_and_smooth(grade):
     table = library_material(grade).table

@@ -14,6 +14,29 @@ from trunnion.results.interior import points
 from trunnion.results.supports import card_forces
 
 MODELS = Path(__file__).parents[2] / "models"
+HERE = Path(__file__).parent
+LEFT_OUT = pytest.StashKey[bool]()
+
+
+def pytest_deselected(items):
+    """Remember that a run leaves tests out: it cannot make the whole record."""
+    for item in items[:1]:
+        item.config.stash[LEFT_OUT] = True
+
+
+def pytest_collection_modifyitems(items):
+    """Put the record of all comparisons behind them."""
+    items.sort(key=lambda item: item.path.name == "test_verification_record.py")
+
+
+@pytest.fixture(scope="session")
+def whole_folder(request):
+    """Whether every test of this folder runs in this process."""
+    config = request.config
+    parts = any("::" in argument for argument in config.args) or hasattr(config, "workerinput")
+    here = {item.path.name for item in request.session.items if item.path.parent == HERE}
+    left_out = parts or config.stash.get(LEFT_OUT, False)
+    return not left_out and here == {path.name for path in HERE.glob("test_*.py")}
 
 
 class Answer:

@@ -4,11 +4,20 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from published import CLOSED, Source, agrees
 
 import trunnion
 from trunnion.deck.reader import read_text
 from trunnion.results.supports import card_forces
 
+LINE = Source(
+    CLOSED,
+    "A line that is heated and cooled on ten rests",
+    "cycle_line",
+    "Heating, every rest slides outward with mu N and the anchor is pushed by F = 10 mu N; "
+    "cooling, every rest slides back and the anchor is pulled by F: the range is 2 F, where one "
+    "shot shows F.",
+)
 F = 10 * 0.3 * 24357.1
 
 
@@ -30,11 +39,16 @@ def anchor(step):
 
 def test_anchor_is_pushed_hot_and_pulled_cold(heat):
     loads = [anchor(step) for step in heat.path]
+    for name, printed, load in zip(("hot", "cold"), (-73071.3, 73071.3), loads[-2:], strict=True):
+        agrees(LINE, f"HEAT, load on the anchor FX, {name}", printed, load, "N")
     assert loads == pytest.approx([-F, F] * heat.loops, rel=1e-3)
     assert loads == pytest.approx([-F, F] * heat.loops, rel=1e-9)  # closed form holds exactly
 
 
 def test_range_is_twice_the_one_shot_range(heat):
+    agrees(LINE, "HEAT, range of the anchor", 146142.6, heat.supports[0, 0], "N")
+    one_shot = heat.one_shot_supports[0, 0]
+    agrees(LINE, "OPE and COLD each on its own, range of the anchor", 73071.3, one_shot, "N")
     assert heat.supports[0, 0] == pytest.approx(2 * F, rel=1e-9)
     assert heat.one_shot_supports[0, 0] == pytest.approx(F, rel=1e-9)
 

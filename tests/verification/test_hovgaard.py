@@ -11,7 +11,22 @@ bends' weight at their ends would give 9.69 N and 11.39 N m.  Not explained.
 
 import numpy as np
 import pytest
+from published import PUBLISHED, Source, agrees, differs
 
+HOVGAARD = Source(
+    PUBLISHED,
+    "Hovgaard's pipe, Code_Aster SSLL101",
+    "hovgaard",
+    "Tables STAT1 (GRAV, weight), STAT2 (LUMP, the weight as nodal forces) and STAT3 (HEAT) of the "
+    "Code_Aster test base, github ehmoussi/code_aster commit 34161d7. Within 0.3 % (an independent "
+    "rebuild with 40 chords in 45 degrees: 0.1 %), a component that is printed 0 within 0.3 % of "
+    "the largest. Nodes by their names in the source.",
+)
+WHY = (
+    "0.33 %, beside forces of 2276 N. LUMP, the same weight as nodal forces, agrees to the last "
+    "digit, so stiffness is not the cause; lumping the bends' weight at their ends would give "
+    "9.69 N and 11.39 N m. Not explained"
+)
 NODE = {"T3": "4N", "T5": "4F", "T7": "7", "T9": "10N", "T11": "10F"}
 MOVES = {
     "GRAV": {
@@ -51,6 +66,7 @@ FORCES = {
         "15": (2791, 7613, 7433, 7052, 10460, 8862),
     },
 }
+PARTS = ("N", "VY", "VZ", "MT", "MFY", "MFZ")
 OURS = {("GRAV", "1", 0): 10.061, ("GRAV", "15", 0): 10.061, ("GRAV", "15", 3): 15.653}
 
 
@@ -59,8 +75,10 @@ OURS = {("GRAV", "1", 0): 10.061, ("GRAV", "15", 0): 10.061, ("GRAV", "15", 3): 
 def test_movements(run, case, node):
     printed = np.array(MOVES[case][node])
     u = run("hovgaard")[case].u(NODE[node])[:3]
-    zero = 0.003 * np.abs(printed).max() * (printed == 0.0)
-    assert np.all(np.abs(u - printed) <= 0.003 * np.abs(printed) + zero), u
+    for name, number, ours in zip("XYZ", printed.tolist(), u, strict=True):
+        zero = 0.003 * np.abs(printed).max()
+        within = {"rel": 0.003} if number else {"abs": zero}
+        agrees(HOVGAARD, f"{case}, {node} U{name}", number, ours, "m", **within)
 
 
 @pytest.mark.parametrize("component", range(6))
@@ -68,10 +86,13 @@ def test_movements(run, case, node):
 @pytest.mark.parametrize("case", FORCES)
 def test_end_forces(run, case, node, component):
     force = abs(run("hovgaard")[case].support(node)[component])
+    what = f"{case}, T{node} {PARTS[component]}"
+    printed, unit = FORCES[case][node][component], "N" if component < 3 else "N m"
     if (case, node, component) in OURS:
-        assert force == pytest.approx(OURS[case, node, component], abs=5e-4)
+        found = OURS[case, node, component]
+        differs(HOVGAARD, what, printed, force, unit, found=found, abs=5e-4, why=WHY)
     else:
-        assert force == pytest.approx(FORCES[case][node][component], rel=0.003)
+        agrees(HOVGAARD, what, printed, force, unit, rel=0.003)
 
 
 def test_default_flexibility_is_the_prints_reduced_inertia(run):

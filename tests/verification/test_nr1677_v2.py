@@ -19,9 +19,22 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from published import PUBLISHED, Source, agrees, differs
 
 from trunnion.solver.spectrum import acceleration
 
+NR1677 = Source(
+    PUBLISHED,
+    "NUREG/CR-1677 volume 2, problem 1",
+    "nr1677_v2_p1",
+    "Bezler, Subudhi and Hartzman, August 1985: envelope spectrum (A), and two groups of supports "
+    "that move independently, by SRSS (B) and absolute sum (C); answers of the report as quoted by "
+    "the verification decks vm-nr1677-2-1a-a.dat, -1b-a and -1c-a of ansys-mapdl-core 0.74.1 (MIT "
+    "licence, (c) ANSYS, Inc.). Frequencies within 0.05 %, A within 0.3 %, B and C within 0.2 %, "
+    "reactions half a pound more. B and C are compared as B6 and C6, with two digits of the lower "
+    "spectrum read otherwise: as printed in the source, it pierces its own envelope, and then "
+    "movements are up to 1.5 % and end forces up to 8 % above the print, which another test holds.",
+)
 FREQUENCIES = (
     *(6.042, 6.256, 7.76, 8.943, 12.444, 12.83, 14.303, 15.486, 16.371, 18.543, 19.499),
     *(23.243, 24.105, 32.636, 33.837),
@@ -116,7 +129,9 @@ def ours(case):
 
 def test_frequencies(found):
     assert found.modes.proven
-    assert found.modes.frequency == pytest.approx(FREQUENCIES, rel=5e-4)
+    both = zip(FREQUENCIES, found.modes.frequency.tolist(), strict=True)
+    for i, (printed, number) in enumerate(both, 1):
+        agrees(NR1677, f"mode {i}", printed, number, "Hz", rel=5e-4)
 
 
 def test_node_32_lies_in_its_plane(found, shake):
@@ -135,8 +150,9 @@ def test_node_32_lies_in_its_plane(found, shake):
 @pytest.mark.parametrize("key", MOVEMENTS, ids="-".join)
 def test_movements(found, key):
     case, *where = key
-    number = found.movement(ours(case), *where)
-    assert number == pytest.approx(MOVEMENTS[key], rel=CLOSE[ours(case)])
+    number, unit = found.movement(ours(case), *where), "in" if key[2][0] == "U" else "rad"
+    what = f"{ours(case)}, {' '.join(where)}"
+    agrees(NR1677, what, MOVEMENTS[key], number, unit, rel=CLOSE[ours(case)])
 
 
 @pytest.mark.parametrize("key", END_FORCES, ids=lambda key: f"{key[0]} {'-'.join(key[1])} {key[2]}")
@@ -145,10 +161,15 @@ def test_end_forces(found, key):
     force = found.end(ours(case), *element, at)
     for part, number, printed in zip(PARTS, force, END_FORCES[key], strict=True):
         gap = OPEN.get((ours(case), element, at, part))
+        what = f"{ours(case)}, {'-'.join(element)} at {element[at]} {part}"
+        unit = "lbf" if part[0] in "NV" else "in lbf"
         if gap is None:
-            assert number == pytest.approx(printed, rel=CLOSE[ours(case)]), part
+            agrees(NR1677, what, printed, number, unit, rel=CLOSE[ours(case)])
         else:
-            assert number / printed == pytest.approx(gap, abs=2e-4)
+            differs(
+                NR1677, what, printed, number, unit, found=gap * printed, abs=2e-4 * printed,
+                why="no digit, read otherwise, is near; the other 83 numbers of B and C are met",
+            )  # fmt: skip
 
 
 @pytest.mark.parametrize("key", REACTIONS, ids="-".join)
@@ -157,7 +178,8 @@ def test_reactions(found, key):
     case, *where = key
     printed = REACTIONS[key]
     allowed = 0.5 + CLOSE[ours(case)] * printed
-    assert found.reaction(ours(case), *where) == pytest.approx(printed, abs=allowed)
+    what, number = f"{ours(case)}, load on {' '.join(where)}", found.reaction(ours(case), *where)
+    agrees(NR1677, what, printed, number, "lbf", abs=allowed)
 
 
 def test_lower_spectrum_pierces_its_envelope(found):
@@ -190,5 +212,10 @@ def test_gaps_with_the_spectrum_as_printed_in_the_source(found, case, most):
             if which == case
         ]
     )
-    assert forces.max() == pytest.approx(most, abs=2e-4)
+    differs(
+        NR1677, f"{case}, largest of our end forces over the print", "1.000", forces.max(),
+        found=most, abs=2e-4, why=f"with the lower spectrum as the source prints it; {case}6 reads "
+        "two of its digits otherwise (0.675 and 0.6 for 0.875 and 0.8), for at 12.5 Hz it would "
+        "pierce the spectrum that envelops it, and all but one of the numbers are met",
+    )  # fmt: skip
     assert forces.min() > 0.995

@@ -5,7 +5,15 @@ seven digits, the last of 1.7416666 cut, not rounded).
 """
 
 import pytest
+from published import PUBLISHED, Source, agrees
 
+SSND116A = Source(
+    PUBLISHED,
+    "A stop with friction, Code_Aster SSND116a",
+    "slide_unload",
+    "Analytic values of the Code_Aster test base, github ehmoussi/code_aster commit 34161d7: load, "
+    "slip, unload and slip back. Within 1e-6, for the last digit of 1.7416666 is cut, not rounded.",
+)
 UX, UY = 0, 1
 PRINTED = [
     ("T050", UX, -0.50),
@@ -20,7 +28,8 @@ PRINTED = [
 
 @pytest.mark.parametrize(("case", "component", "printed"), PRINTED)
 def test_movement(run, case, component, printed):
-    assert run("slide_unload")[case].u("1")[component] == pytest.approx(printed, abs=1e-6)
+    ours = run("slide_unload")[case].u("1")[component]
+    agrees(SSND116A, f"{case}, {['UX', 'UY'][component]}", printed, ours, "m", abs=1e-6)
 
 
 def test_modes_are_stick_slip_stick_slip(run):

@@ -7,6 +7,7 @@ from math import pi
 
 import numpy as np
 import pytest
+from published import CLOSED, Source, agrees
 
 import trunnion
 from trunnion.arrays import SLIP
@@ -24,6 +25,21 @@ from trunnion.model import (
     Term,
 )
 
+LINE = Source(
+    CLOSED,
+    "A hot line on twenty sliding rests",
+    "sliding_line",
+    "Every rest slides with mu N, so the axial force falls by mu N at each and the free end moves "
+    "by alpha dT L less the shortening under these forces; the test holds the closed form with the "
+    "anchor's spring to 1e-9.",
+)
+LONG = Source(
+    CLOSED,
+    "The same line, 9 km long",
+    "",
+    "Its far part is locked: E A alpha dT, and a virtual anchor 7.9 km from the free end. Built in "
+    "`tests/verification/test_sliding_line.py`.",
+)
 N, MU, BAY, BAYS = 24357.1, 0.3, 10.0, 20
 EA = 203.4e9 * pi / 4 * (0.4064**2 - (0.4064 - 2 * 0.00953) ** 2)
 FREE = 12e-6 * 200.0
@@ -41,13 +57,15 @@ def test_every_rest_slides(ope):
 
 
 def test_anchor_force_is_the_sum_of_frictions(ope):
-    assert ope.load("0")[0] == pytest.approx(-146142.6, abs=0.05)
+    agrees(LINE, "OPE, load on the anchor FX", -146142.6, ope.load("0")[0], "N")
     assert ope.load("0")[0] == pytest.approx(-BAYS * MU * N, rel=1e-9)
 
 
 @pytest.mark.parametrize("bay", range(BAYS))
 def test_axial_force_falls_by_mu_n_at_each_rest(ope, bay):
     force = ope.end(str(10 * bay), str(10 * bay + 10), 0)[0]
+    if bay == BAYS - 1:
+        agrees(LINE, "OPE, axial force in the last bay", 7307.13, force, "N")
     assert force == pytest.approx((BAYS - bay) * MU * N, rel=1e-9)
 
 
@@ -60,7 +78,7 @@ def test_rest_carries_its_load(ope, rest):
 def test_end_movement(ope):
     shortening = MU * N * BAY / EA * sum(range(1, BAYS + 1))
     closed = FREE * BAY * BAYS - shortening - BAYS * MU * N / K
-    assert ope.u("200")[0] == pytest.approx(0.473651, abs=5e-7)
+    agrees(LINE, "OPE, movement of the free end", 0.473651, ope.u("200")[0], "m")
     assert ope.u("200")[0] == pytest.approx(closed, rel=1e-9)
 
 
@@ -98,7 +116,7 @@ def long_line(answer):
 
 def test_long_line_is_locked_between_the_anchors(long_line):
     # a few bays from the anchor, whose spring of 1e12 N/m gives way by 6e-6 m
-    assert long_line.end("50", "51", 0)[0] == pytest.approx(5800337, abs=0.5)
+    agrees(LONG, "OPE, locked axial force", 5800337, long_line.end("50", "51", 0)[0], "N")
 
 
 def test_long_line_slides_up_to_the_virtual_anchor(long_line):
@@ -111,6 +129,6 @@ def test_end_movement_of_the_long_line(long_line):
     sliding = range(1, int(locked / (MU * N)) + 1)
     rigid = sum(FREE * BAY - k * MU * N * BAY / EA for k in sliding)
     moved = long_line.u("900")[0]
-    assert moved == pytest.approx(9.5135, abs=5e-5)
+    agrees(LONG, "OPE, movement of the free end", 9.5135, moved, "m")
     # rests that stick give way by at most mu N / k_f each
     assert rigid < moved < rigid + MU * N / 1e8

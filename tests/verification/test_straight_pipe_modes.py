@@ -10,6 +10,7 @@ from math import pi
 
 import numpy as np
 import pytest
+from published import CLOSED, PUBLISHED, Source, agrees, differs
 
 from trunnion.loads.masses import model_masses
 from trunnion.model import Modes
@@ -17,6 +18,22 @@ from trunnion.solver.ledger import Ledger
 from trunnion.solver.modal import modes_of
 from trunnion.system import build_system
 
+SSLL106 = Source(
+    PUBLISHED,
+    "A straight cantilever, Code_Aster SSLL106, modes",
+    "straight_pipe",
+    "Analytic references of the Code_Aster test base, github ehmoussi/code_aster commit 34161d7. "
+    "Within 0.03 %: the references of the first pairs are 0.025 and 0.018 % below those of Euler "
+    "and Bernoulli's closed form themselves. Bending modes come in pairs; the list of the source "
+    "leaves out the sixth pair, 246.505 Hz.",
+)
+PIPE_10M = Source(
+    CLOSED,
+    "A pipe of 10 m, modes",
+    "pipe_10m",
+    "First bending frequency of a simple beam, Euler-Bernoulli; the printed one is of rounded "
+    "areas: a whole unit of its last digit.",
+)
 PRINTED = [
     (2.90229, 2, 3e-4),
     (18.18967, 2, 3e-4),
@@ -41,7 +58,11 @@ def found(deck):
 
 @pytest.mark.parametrize(("printed", "times", "rel"), PRINTED)
 def test_frequencies(found, printed, times, rel):
-    assert np.isclose(found.frequency, printed, rtol=rel).sum() == times
+    near = found.frequency[np.isclose(found.frequency, printed, rtol=rel)]
+    assert len(near) == times
+    if printed != 50.993673:
+        number = [row[0] for row in PRINTED].index(printed) + 1
+        agrees(SSLL106, f"frequency {number}", printed, near[0], "Hz", rel=rel)
 
 
 def test_none_is_missing(found):
@@ -56,6 +77,10 @@ def test_third_pair_is_that_of_euler_and_bernoulli(found):
     exact = 7.854757438**2 / (2 * pi * 25) * (ei / m) ** 0.5
     assert exact == pytest.approx(50.9407, abs=5e-5)
     assert found.frequency[4:6] == pytest.approx(exact, rel=2e-5)
+    differs(
+        SSLL106, "frequency 3", 50.993673, found.frequency[4], "Hz", found=50.9407, abs=1e-3,
+        why="Euler-Bernoulli gives 50.9407 Hz, Timoshenko 50.62 Hz: the print fits neither",
+    )  # fmt: skip
 
 
 def test_pipe_of_10_m(deck):
@@ -65,4 +90,4 @@ def test_pipe_of_10_m(deck):
     ei, m = 203e9 * pi / 64 * (0.2731**4 - bore**4), 7850 * (0.2731**2 - bore**2) + 1000 * bore**2
     exact = pi / 2 / 100 * (ei / (m * pi / 4)) ** 0.5
     assert found.frequency[:2] == pytest.approx(exact, rel=2e-6)
-    assert exact == pytest.approx(5.4906, abs=1e-4)
+    agrees(PIPE_10M, "first bending frequency", 5.4906, found.frequency[0], "Hz", abs=1e-4)

@@ -9,10 +9,41 @@ from math import cos, pi, radians, sin
 
 import numpy as np
 import pytest
+from published import CLOSED, Source, agrees, differs
 
 import trunnion
 from trunnion.arrays import OPEN, SLIP, STICK
 
+THEORY = "Trunnion's theory: exact solution of the foot's two freedoms with friction (`answers` in "
+STRUT = {
+    "three": Source(
+        CLOSED,
+        "A strut that has three answers",
+        "strut_three",
+        THEORY + "test_struts.py). Each answer is found from a start of its own, and all three "
+        "by `trunnion run --spread 8`; the test holds them to 1e-8 of the closed form on the "
+        "springs of 1e12 N/m that the head has.",
+    ),
+    "cycle": Source(
+        CLOSED,
+        "A strut whose renewal runs in a circle",
+        "strut_cycle",
+        THEORY + "test_struts.py), which slips; plain renewal of N cycles around it between 6 091 "
+        "and 103 177 N. The test holds it to 1e-8 of the closed form on the head's springs.",
+    ),
+}
+HEAD = (
+    "the print is for a rigid head; the springs of 1e12 N/m and N m/rad that hold it here move N "
+    "by up to 0.2 N, and the closed form with these springs is met to 1e-8"
+)
+FLOATING = Source(
+    CLOSED,
+    "Six rests without an anchor",
+    "floating_rests",
+    "Statics: every rest slides, three to each side, with mu N. The axial position is undetermined "
+    "by about 10 mm either way, and the run names that motion.",
+)
+WORDS = {OPEN: "open", SLIP: "slip", STICK: "stick"}
 LENGTH, MU, K, KF = 10.0, 0.3, 1e12, 1e8
 BORE = 0.2731 - 2 * 0.00927
 EI = 203e9 * pi / 64 * (0.2731**4 - BORE**4)
@@ -41,6 +72,15 @@ def answers(load, head=1 / K):
     return found
 
 
+def record(name, mode, normal, exact):
+    """Compare with the print, which the springs of the head may be too soft to meet."""
+    printed, what = PRINTED[name][mode], f"PUSH, N of the answer that is {WORDS[mode]}"
+    if abs(exact - printed) <= 0.05:
+        agrees(STRUT[name], what, printed, normal, "N", abs=0.05)
+    else:
+        differs(STRUT[name], what, printed, normal, "N", found=exact, rel=1e-8, why=HEAD)
+
+
 @pytest.mark.parametrize("name", LOAD)
 def test_closed_form_gives_the_printed_answers(name):
     exact = answers(LOAD[name], head=0.0)
@@ -56,6 +96,8 @@ def test_an_exact_answer_is_found(run, name):
     mode, normal = int(push.state.mode[i]), push.state.normal[i]
     assert normal == pytest.approx(PRINTED[name][mode], rel=1e-5, abs=1e-3)
     assert normal == pytest.approx(answers(LOAD[name])[mode], rel=1e-8, abs=1e-3)
+    if name == "cycle":
+        record("cycle", mode, normal, answers(LOAD[name])[mode])
 
 
 @pytest.mark.parametrize("mode", PRINTED["three"])
@@ -64,7 +106,9 @@ def test_each_of_the_three_answers_is_found_from_its_start(deck, answer, mode):
     push = answer(trunnion.solve(deck("strut_three"), starts={"PUSH": start})["PUSH"])
     i = push.slider("10")
     assert push.state.mode[i] == mode
-    assert push.state.normal[i] == pytest.approx(answers(LOAD["three"])[mode], rel=1e-8, abs=1e-3)
+    exact = answers(LOAD["three"])[mode]
+    assert push.state.normal[i] == pytest.approx(exact, rel=1e-8, abs=1e-3)
+    record("three", mode, push.state.normal[i], exact)
 
 
 def test_floating_rests_all_slide(run):
@@ -72,6 +116,7 @@ def test_floating_rests_all_slide(run):
     assert np.all(ope.state.mode == SLIP)
     assert ope.state.normal == pytest.approx(24357.0, rel=1e-9)
     assert np.abs(ope.state.friction[:, 0]) == pytest.approx(MU * 24357.0, rel=1e-9)
+    agrees(FLOATING, "OPE, friction of a rest", 7307.1, abs(ope.state.friction[0, 0]), "N")
     assert np.sign(ope.state.friction[:, 0]).tolist() == [1, 1, 1, -1, -1, -1]
 
 

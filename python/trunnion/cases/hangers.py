@@ -1,7 +1,7 @@
 """Program-designed spring hangers: hot load, travel, and a spring from a table.
 
-1. Weight: rigid vertical supports stand where hangers are to be designed; W (and H of hangers
-   that are given) gives each its hot load.
+1. Weight: rigid vertical supports stand where hangers are to be designed, anchors that FREE=
+   names are let go vertically; W (and H of hangers that are given) gives each its hot load.
 2. Operation: those supports are replaced by constant forces of the hot load; the operating case
    gives the travel of each from where the weight left it.
 3. Selection: a rigid rod where the travel is small; else the first spring of the table (series by
@@ -19,6 +19,7 @@ import numpy as np
 
 from trunnion.arrays import F8, CaseResult, HangerChoice, Results
 from trunnion.cases.default_cases import is_operating, with_cases
+from trunnion.cases.freed import freed
 from trunnion.errors import ModelError, Problem
 from trunnion.loads.movements import node_numbers
 from trunnion.model import Case, Direction, HangerDesign, Model, SpringSize, Support, Term
@@ -47,7 +48,7 @@ def designed(model: Model) -> tuple[Model, tuple[HangerChoice, ...]]:
     terms = (Term(1.0, "W"), *((Term(1.0, "H"),) if others else ()))
     up = f"{model.settings.up}"
     rigid = {i: _rod(model.supports[i], up) for i in at}
-    weight = _solve(model, rigid, Case(WEIGHT, terms))
+    weight = _solve(freed(model), rigid, Case(WEIGHT, terms))
     hot = {i: float(weight.supports.values[i] @ _up_row(weight)) for i in at}
     constant = {i: _hanger(model.supports[i], 0.0, max(hot[i], 0.0)) for i in at}
     travel: dict[int, float] = {}
@@ -59,8 +60,10 @@ def designed(model: Model) -> tuple[Model, tuple[HangerChoice, ...]]:
         moved = _solve(model, constant, acting)
         for i in (i for i in at if _operating(model, i) == name):
             travel[i] = _lift(moved, model.supports[i]) - _lift(weight, model.supports[i])
-    table = model.spring_sizes or _generic()
-    choices = tuple(select(model.supports[i], hot[i], travel[i], table) for i in at)
+    choices = tuple(
+        select(model.supports[i], hot[i], travel[i], springs_for(model, model.supports[i]))
+        for i in at
+    )
     supports = list(model.supports)
     for i, choice in zip(at, choices, strict=True):
         s = supports[i]
@@ -192,7 +195,11 @@ def _lift(result: CaseResult, s: Support) -> float:
     return float(u[node[s.node]] - ground)
 
 
-def _generic() -> Sequence[SpringSize]:
-    from trunnion.library.springs import generic_springs
+def springs_for(model: Model, support: Support) -> Sequence[SpringSize]:
+    """Table from which a hanger is selected: SPRINGSIZE cards, or one of the library."""
+    if model.spring_sizes:
+        return model.spring_sizes
+    from trunnion.library.springs import spring_table
 
-    return generic_springs()
+    assert support.design is not None
+    return spring_table(support.design.table)

@@ -81,7 +81,7 @@ def _hangers(model: Model, broken: Set[str]) -> Iterator[Fault]:
     if not asked:
         return
     cases = {case.name: case for case in model.cases}
-    series = {size.series for size in model.spring_sizes} or {"SHORT", "MEDIUM", "LONG"}
+    own = {size.series for size in model.spring_sizes}
     for s in asked:
         assert s.design is not None
         head, name = f"HANGER {s.node}", s.design.operating
@@ -90,9 +90,17 @@ def _hangers(model: Model, broken: Set[str]) -> Iterator[Fault]:
             why = "has no weight with temperature or movement" if case else "is not defined"
             message = f"case {name} {why}{'' if case else nearest(name, cases)}"
             yield Fault(s.place, head, message, "OPERATING=")
+        series = own or (_series(s.design.table) if s.design.series else set())
         if s.design.series and s.design.series not in series | broken:
             message = f"series {s.design.series} is not one of {' '.join(sorted(series))}"
             yield Fault(s.place, head, message, "SERIES=")
+
+
+def _series(table: str) -> Set[str]:
+    """Series of a table of the library."""
+    from trunnion.library.springs import spring_table
+
+    return {size.series for size in spring_table(table)}
 
 
 def _spectra(model: Model, broken: Set[str]) -> Iterator[Fault]:

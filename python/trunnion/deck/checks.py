@@ -95,6 +95,12 @@ def _nodes(model: Model, broken: Set[str]) -> Iterator[Fault]:
     uses += [(m.node, m.place, "MASS", m.node) for m in model.masses]
     uses += [(s.node, s.place, s.kind.upper(), s.node) for s in model.supports]
     uses += [(s.cnode, s.place, s.kind.upper(), "CNODE=") for s in model.supports if s.cnode]
+    uses += [
+        (n, s.place, s.kind.upper(), "FREE=")
+        for s in model.supports
+        if s.design is not None
+        for n in s.design.freed
+    ]
     uses += [(d.node, d.place, "DISPLACEMENT", d.node) for d in model.displacements]
     uses += [(f.node, f.place, "FORCE", f.node) for f in model.forces]
     uses += [(n, g.place, f"GROUP {g.name}", n) for g in model.groups for n in g.nodes]
@@ -105,7 +111,7 @@ def _nodes(model: Model, broken: Set[str]) -> Iterator[Fault]:
             why = f": {label[:-1]} is no bend"
         else:
             why = nearest(label, known)
-        head = f"{word} {label}" if mark != "CNODE=" else word
+        head = f"{word} {label}" if mark not in ("CNODE=", "FREE=") else word
         yield Fault(place, head, f"node {label} is not defined{why}", mark)
 
 

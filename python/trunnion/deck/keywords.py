@@ -516,6 +516,14 @@ TABLE: tuple[Keyword, ...] = (
                 kind="name",
                 default="the first CASE with weight, and temperature or movement",
             ),
+            _choice("TABLE", "springs where no SPRINGSIZE is", ("GENERIC", "ANVIL"), "GENERIC"),
+            Key(
+                "FREE",
+                "node whose anchor is free vertically while the weight is balanced",
+                kind="node",
+                default="none",
+            ),
+            Key("FREE2", "another such node", kind="node", default="none"),
             _CNODE,
             _NAME,
         ),
@@ -541,9 +549,11 @@ TABLE: tuple[Keyword, ...] = (
             _number("RATE", "spring rate", "stiffness", "", POSITIVE, required=True),
         ),
         notes=(
-            "Without these cards the table is generic, of no maker: series SHORT, MEDIUM and LONG "
-            "with 32, 63 and 125 mm working travel, largest loads from 0.4 to 200 kN in preferred "
-            "numbers (ISO 3, R10), least load half of the largest.",
+            "Without these cards TABLE= of the HANGER says where springs come from. GENERIC is "
+            "of no maker: series SHORT, MEDIUM and LONG with 32, 63 and 125 mm working travel, "
+            "largest loads from 0.4 to 200 kN in preferred numbers (ISO 3, R10), least load half "
+            "of the largest. ANVIL has the series 82, B-268, 98, TRIPLE and QUADRUPLE of that "
+            "maker.",
         ),
         example="SPRINGSIZE VS-12 SERIES=VS MIN=4.2 MAX=7.5 RATE=55N/mm",
     ),

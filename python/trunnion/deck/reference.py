@@ -69,7 +69,7 @@ MODES 12 ABOUT=OPE
 
 def page() -> str:
     """Write the whole page."""
-    lines = [_INTRODUCTION, "```", EXAMPLE + "```", "", "## Cards", ""]
+    lines = [_INTRODUCTION, "```deck", EXAMPLE + "```", "", "## Cards", ""]
     lines += [f"- [{k.name}](#{k.name.lower()}): {_first_sentence(k.meaning)}" for k in TABLE]
     for keyword in TABLE:
         lines += ["", *_card(keyword)]
@@ -101,7 +101,7 @@ def _card(keyword: Keyword) -> Iterator[str]:
     yield ""
     yield keyword.meaning
     yield ""
-    yield "```"
+    yield "```deck"
     yield _form(keyword)
     yield keyword.example
     yield "```"

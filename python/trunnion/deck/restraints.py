@@ -46,6 +46,9 @@ DESIGN_KEYS = {
     "METHOD": "method",
     "SERIES": "series",
     "OPERATING": "operating",
+    "TABLE": "table",
+    "FREE": "free",
+    "FREE2": "free2",
 }
 
 

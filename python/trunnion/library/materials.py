@@ -12,6 +12,12 @@ read at https://efp-web.com/pipe-thermal-expansion/ (ANSI B31.1 Appendix B; same
 for 0.01 here and there).  B31.3 replaced this table in 2010 by that of ASME II Part D, which
 gives 3.7 where this has 3.62.
 
+Grades that end in -IID have the mean coefficients of ASME II-D Table TE-1, carbon and low alloy
+steels (group 1), columns B of the 2001 and 2010 editions as reprinted at
+https://pdfslide.us/documents/asme-sec-ii-d-sb-pt2-phys-prop-tables2003.html and
+https://ru.scribd.com/doc/231109310 (read there; both have the same numbers).  It is what
+B31.3 takes since 2010.  It begins at 70 F; below stand the values of Table C-1.
+
 The mean coefficient is total / (1200 (T - 70 F)).  Totals of two digits near 70 F would give
 it to 2-4 % only, so rows between 0 and 150 F are left out; interpolation there is better.
 
@@ -21,7 +27,7 @@ ambient-temperature-physical-properties-of-stainless-steels-to-bs-en-10088-1; ot
 Poisson's ratio 0.3 for every steel.
 
 Left out because no source could be read that has their tables: duplex, copper-nickel,
-aluminium, and every expansion above 800 F.
+aluminium, and expansions of Table C-1 above 800 F.
 """
 
 from trunnion.library.names import UnknownName
@@ -75,6 +81,16 @@ _EXPANSION: dict[str, tuple[float, ...]] = {
     ),
 }
 
+# temperatures [F] and mean coefficient from 70 F [1e-6 / F]
+_A_F = (70, *range(100, 1301, 50))
+_MEAN: dict[str, tuple[float, ...]] = {
+    "carbon and low alloy steel, II-D group 1": (
+        *(6.4, 6.5, 6.6, 6.7, 6.8, 6.9, 7.0, 7.1, 7.2, 7.3, 7.3, 7.4, 7.5, 7.6, 7.7, 7.8, 7.9),
+        *(7.9, 8.0, 8.1, 8.1, 8.2, 8.3, 8.3, 8.4, 8.4),
+    ),
+}
+_IID = "carbon and low alloy steel, II-D group 1"
+
 _CARBON = ("carbon steel, C <= 0.3 %", "carbon steel, C-Mo to 3Cr-Mo", 7850.0)
 _CR1 = ("Cr-Mo steel, Cr 1/2 to 2 %", "carbon steel, C-Mo to 3Cr-Mo", 7850.0)
 _CR2 = ("Cr-Mo steel, Cr 2 1/4 to 3 %", "carbon steel, C-Mo to 3Cr-Mo", 7850.0)
@@ -90,6 +106,9 @@ GRADES: dict[str, tuple[str, str, float]] = {
     **dict.fromkeys(("A335-P5", "A335-P9", "A335-P91"), _CR9),
     **dict.fromkeys(("A312-TP304", "A312-TP304L", "A312-TP321", "A312-TP347"), _304),
     **dict.fromkeys(("A312-TP316", "A312-TP316L"), _316),
+    "A106-B-IID": (_CARBON[0], _IID, 7850.0),
+    "A335-P11-IID": (_CR1[0], _IID, 7850.0),
+    "A335-P22-IID": (_CR2[0], _IID, 7850.0),
 }
 
 
@@ -107,20 +126,20 @@ def library_material(grade: str) -> Material:
         raise UnknownName("material grade", grade, GRADES)
     row, column, density = GRADES[known[name]]
     modulus = dict(zip(_E_F, _MODULUS[row], strict=False))  # carbon steel ends at 1100 F
-    expansion = dict(zip(_X_F, _EXPANSION[column], strict=True))
+    alpha = _coefficients(column)
     table = tuple(
         TablePoint(
             t=_celsius(f),
             e=modulus[f] * 1e6 * PSI if f in modulus else None,
-            alpha=_mean_alpha(f, expansion[f]) if f in expansion else None,
+            alpha=alpha.get(f),
         )
-        for f in sorted({*modulus, *expansion})
+        for f in sorted({*modulus, *alpha})
     )
     return Material(
         name=known[name],
         grade=known[name],
         e=modulus[70] * 1e6 * PSI,
-        alpha=_mean_alpha(200, expansion[200]),
+        alpha=alpha[200],
         density=density,
         table=table,
         table_tref=_celsius(_T0),
@@ -133,6 +152,16 @@ def _key(grade: str) -> str:
 
 def _celsius(fahrenheit: float) -> float:
     return (fahrenheit - 32.0) / 1.8
+
+
+def _coefficients(column: str) -> dict[int, float]:
+    """Mean coefficients from 70 F by temperature [F], [1/K]."""
+    late = column in _MEAN
+    totals = zip(_X_F, _EXPANSION[_CARBON[1] if late else column], strict=True)
+    found = {f: _mean_alpha(f, total) for f, total in totals if f < _T0 or not late}
+    if late:
+        found |= {f: 1.8e-6 * a for f, a in zip(_A_F, _MEAN[column], strict=True)}
+    return found
 
 
 def _mean_alpha(fahrenheit: float, total: float) -> float:

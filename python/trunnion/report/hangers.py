@@ -3,6 +3,7 @@
 import numpy as np
 
 from trunnion.arrays import HangerChoice
+from trunnion.model import Model
 from trunnion.report.columns import integers, numbers, plain, section, table, words, wrapped
 from trunnion.report.encode import dump, lines
 from trunnion.report.units import ReportUnits
@@ -10,9 +11,17 @@ from trunnion.report.units import ReportUnits
 KINDS = {"spring": "spring", "rod": "rigid rod", "constant": "constant", "none": "none"}
 
 
-def selection_table(choices: tuple[HangerChoice, ...], generic: bool, units: ReportUnits) -> str:
+def table_source(model: Model) -> str:
+    """Say where the springs of a model's hangers come from."""
+    if model.spring_sizes:
+        return "SPRINGSIZE cards"
+    said = {"GENERIC": "generic table, no maker's: see SPRINGSIZE"}
+    tables = sorted({s.design.table for s in model.supports if s.design is not None})
+    return "; ".join(said.get(name, f"{name} table of the library") for name in tables)
+
+
+def selection_table(choices: tuple[HangerChoice, ...], source: str, units: ReportUnits) -> str:
     """Print hanger, size, cold and hot load, rate, travel and variation."""
-    source = "generic table, no maker's: see SPRINGSIZE" if generic else "SPRINGSIZE cards"
     columns = [
         words("NODE", [c.node for c in choices]),
         words("NAME", [c.name for c in choices]),

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from trunnion.arrays import Card, System
-from trunnion.model import Model, Support
+from trunnion.model import HangerDesign, Model, Support
 from trunnion.report.columns import Column, integers, numbers, plain, section, table, words
 from trunnion.report.units import Quantity, ReportUnits
 
@@ -120,12 +120,17 @@ def _asked(cards: Sequence[Support], units: ReportUnits) -> str:
         numbers("CONSTANT FROM", [d.most or np.nan for d in wanted], units.movement, 15),
         integers("NUMBER", [d.number for d in wanted]),
         words("METHOD", [d.method for d in wanted]),
-        words("SERIES", [d.series or "all" for d in wanted]),
+        words("SERIES", [_series(d) for d in wanted]),
         words("OPERATING", [d.operating or "first" for d in wanted]),
         integers("LINE", [s.place.line for s in cards]),
         words("  NAME", [f"  {s.name or ''}" for s in cards]),
     ]
     return table(columns)
+
+
+def _series(design: HangerDesign) -> str:
+    series = design.series or "all"
+    return series if design.table == "GENERIC" else f"{design.table}-{series}"
 
 
 def _snubbers(system: System, units: ReportUnits) -> str:

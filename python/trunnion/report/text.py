@@ -8,7 +8,7 @@ from trunnion.report.columns import PAGE, chapter, section, wrapped
 from trunnion.report.dynamics import modes_text
 from trunnion.report.echo import input_echo
 from trunnion.report.frozen import frozen_table, frozen_warning
-from trunnion.report.hangers import selection_table
+from trunnion.report.hangers import selection_table, table_source
 from trunnion.report.loops import cycle_report, cycle_warnings
 from trunnion.report.modes import mode_report, mode_warnings
 from trunnion.report.origin import origin_text
@@ -46,7 +46,7 @@ def text_report(results: Results, model: Model) -> bytes:
     names = {c.name for c in own if c.about}
     increments = [case.name for case in good if case.name in names]
     if results.hangers:
-        parts.append(selection_table(results.hangers, not model.spring_sizes, units))
+        parts.append(selection_table(results.hangers, table_source(model), units))
     parts.append(restraint_summary(good, units, increments))
     parts.append(chapter("4  RESULTS BY CASE"))
     parts.append(wrapped(CERTIFIED, "") if results.cases else "\n  none\n")

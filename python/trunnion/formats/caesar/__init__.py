@@ -55,6 +55,7 @@ def read_job(findings: Findings, frame: Skeleton) -> Job:
         ambient=USUAL_AMBIENT if misc.ambient is None else misc.ambient,
         units=units.names,
         titles=frame.titles,
+        version=frame.version,
     )
 
 

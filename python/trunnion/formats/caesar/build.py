@@ -5,6 +5,7 @@ from dataclasses import replace
 from trunnion.formats.caesar.geometry import Labels
 from trunnion.formats.caesar.job import Job
 from trunnion.formats.caesar.loads import Loads
+from trunnion.formats.caesar.offsets import links_for_offsets
 from trunnion.formats.caesar.parts import Parts
 from trunnion.formats.caesar.pipes import Pipes
 from trunnion.formats.caesar.restraints import Restraints
@@ -28,6 +29,7 @@ def build(job: Job, findings: Findings, name: str, header: tuple[str, ...] = ())
         units=job.units,
         settings=replace(Settings(), up=job.up, stiffen=stiffen),
     )
+    job = links_for_offsets(job, findings)
     labels = Labels(job, findings)
     pipes = Pipes(job, labels, model, findings)
     pipes.add()

@@ -168,6 +168,7 @@ class HangerData:
     cnode: int = 0
     table: int = 0
     tag: str = ""
+    free: tuple[tuple[int, int], ...] = ()  # anchors and codes of the freedoms that are freed
 
 
 @frozen
@@ -191,3 +192,4 @@ class Job:
     ambient: float = 21.11  # [C]
     units: Units = Units("mm", "N", "bar", "C")
     titles: tuple[str, ...] = ()
+    version: float = 0.0  # of the program

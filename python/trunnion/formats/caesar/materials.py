@@ -5,7 +5,9 @@ Numbers, names and constants (modulus, Poisson's ratio, density, expansion at 70
 Conduit (MaterialLibrary.cs).  102, 103, 106 and 321 were also seen with these names in files.
 The expansion between ambient and a temperature is in no file: it is taken from the grade of
 Trunnion's library that has the same column of ASME B31.3 Table C-1; materials without such a
-column have their coefficient at 70 F, and say so.
+column have their coefficient at 70 F, and say so.  Displacements that version 14 printed for
+A106 B at 325 C and for A334 6 at 350 C have the coefficients of ASME II-D Table TE-1 group 1
+(7.434 and 7.524e-6/F) to 0.05 %, so that carbon and low alloy steels of late versions have them.
 """
 
 from typing import Any
@@ -74,6 +76,9 @@ _NUMBERS: tuple[tuple[Family, tuple[int, ...]], ...] = (
 )
 FAMILIES = {number: family for family, numbers in _NUMBERS for number in numbers}
 SAME = 1e-3  # a modulus this near to the grade's is the grade's, which has one at every temperature
+IID = "-IID"  # grades of the library with the expansion of ASME II-D Table TE-1
+LATE = ("A106-B", "A335-P11", "A335-P22")  # grades that have it
+LATE_VERSION = 12.0  # seen: not in 11 (modulus of older codes), in 14
 CUT_SHORT, CUT_LONG = 18, 19  # no materials: cold spring
 PLASTIC = 20  # fibre reinforced, not isotropic
 
@@ -97,12 +102,20 @@ def name_of(number: int) -> str:
     return NAMES.get(number, f"MAT{number}")
 
 
-def material_of(name: str, family: Family, e: float, nu: float, density: float) -> Material:
-    """Material of a family with the file's own modulus, Poisson's ratio and density (0: none)."""
+def material_of(
+    name: str, family: Family, e: float, nu: float, density: float, *, late: bool
+) -> Material:
+    """Material of a family with the file's own modulus, Poisson's ratio and density (0: none).
+
+    Parameters
+    ----------
+    late : the file is of a version whose data base has the expansion of ASME II-D.
+    """
     e, nu, density = e or family.e, nu or family.nu, density or family.density
     if family.grade is None:
         return Material(name, e, nu, family.alpha, density)
-    keys: dict[str, Any] = {"GRADE": family.grade, "NU": nu, "DENSITY": density}
+    grade = f"{family.grade}{IID}" if late and family.grade in LATE else family.grade
+    keys: dict[str, Any] = {"GRADE": grade, "NU": nu, "DENSITY": density}
     if abs(e / graded(name, keys).e - 1.0) > SAME:
         keys["E"] = e
     return graded(name, keys)

@@ -90,9 +90,17 @@ def _hangers(
                 cnode=cnode[i],
                 table=table[i],
                 tag=columns.string(line + 2) if strings else "",
+                free=_freed(columns, line + each if step > each else first + n * each + i),
             )
         )
     return tuple(found)
+
+
+def _freed(columns: Columns, line: int) -> tuple[tuple[int, int], ...]:
+    """Nodes of anchors that the design of a hanger frees, with the codes of their freedoms."""
+    one, other, *codes = columns.integers(line, 4)
+    pairs = zip((one, other), codes, strict=True)
+    return tuple((node, max(1, code)) for node, code in pairs if node > 0)
 
 
 def _list(columns: Columns, line: int, n: int) -> list[int]:

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+from trunnion.formats.caesar.bendfactors import factor_of
 from trunnion.formats.caesar.bodies import Bodies
 from trunnion.formats.caesar.geometry import Labels, size
 from trunnion.formats.caesar.job import Element, Job, Vec
@@ -41,31 +42,27 @@ class Pipes:
             e = self.job.elements[corner.before]
             bend = e.bend
             assert bend is not None
-            k = bend.k if bend.k >= 1.0 else None
+            modulus = self.model.materials[self.properties.material(e)].e
+            factor = factor_of(bend, e, corner, modulus)
+            if factor.text and factor.k != bend.k:
+                text = f"element {e.start}-{e.end}: {factor.text}"
+                self.findings.assume(text, bend.line)
             place = self.findings.place(e.line)
-            made = Bend(str(node), corner.radius, k=k, flanges=bend.flanges, place=place)
+            made = Bend(str(node), corner.radius, k=factor.k, flanges=bend.flanges, place=place)
             self.model.bends.append(made)
             arc = self.labels.arc
             nodes = [f", node {n} is {arc[n]}" for _, n in bend.nodes if n in arc]
-            self.findings.note(made, f"bend of line {bend.line}" + "".join(nodes))
+            text = f"bend of line {bend.line}" + "".join(nodes)
+            self.findings.note(made, f"{text}: {factor.text}" if factor.text else text)
         self.model.bends.sort(key=lambda record: record.place.line)
 
     def _refuse(self, e: Element, name: str) -> None:
         """Tell what of an element has no counterpart."""
         leave = self.findings.leave_out
-        nodes = {e.start, e.end} & self.labels.corners.keys()
-        if e.offsets is not None and nodes and any((*e.offsets.start, *e.offsets.end)):
-            leave(e.offsets.line, name, "offsets of an element at a bend; taken without")
         strains = [n + 1 for n, x in enumerate(e.strain) if x is not None]
         if strains:
             text = f"T{strains[0]} is an expansion (length by length), not a temperature"
             leave(e.line, name, f"{text}; taken as ambient temperature")
-        if e.bend is not None and e.bend.miters:
-            leave(e.bend.line, name, f"mitre bend of {e.bend.miters} cuts; taken as smooth bend")
-        fitting = e.bend.fitting_wall if e.bend is not None else 0.0
-        if e.bend is not None and fitting > 0.0 and abs(fitting - e.wall) > 5e-3 * e.wall:
-            text = f"bend with a wall of {1e3 * fitting:.4g} mm; taken with the wall of the pipe"
-            leave(e.bend.line, name, text)
 
     def _tie(self, i: int, e: Element) -> None:
         """Join the ends of an element without length rigidly."""
@@ -85,7 +82,7 @@ class Pipes:
         start, end = self.labels.ends(i)
         place = self.findings.place(e.line)
         made = Pipe(start, end, e.delta, section, material, operation, place=place)
-        if e.offsets is not None and not {e.start, e.end} & self.labels.corners.keys():
+        if e.offsets is not None:
             arms = e.offsets.start, e.offsets.end
             made = replace(made, offsets=tuple(arm if any(arm) else None for arm in arms))
         corner = self.labels.corners.get(e.start)

@@ -83,7 +83,11 @@ class Properties:
         elif family is None and e.material not in (mt.CUT_SHORT, mt.CUT_LONG):
             self._leave_out(e, f"material {e.material} is not known; taken as carbon steel")
         family = family or mt.FAMILIES[1]
-        made = mt.material_of(name, family, e.e, e.nu, e.density)
+        late = self.job.version >= mt.LATE_VERSION
+        made = mt.material_of(name, family, e.e, e.nu, e.density, late=late)
+        if late and (made.grade or "").endswith(mt.IID):
+            text = "carbon and low alloy steels expand by ASME II-D Table TE-1, as in versions "
+            self.findings.assume(f"{text}from {mt.LATE_VERSION:g} on (before: B31.3 Table C-1)")
         made = Material(
             *(made.name, made.e, made.nu, made.alpha, made.density, made.grade),
             *(made.table, made.table_tref),

@@ -3,25 +3,18 @@
 import re
 from collections import Counter
 from collections.abc import Iterator
+from dataclasses import replace
 
+from trunnion.formats.caesar.codes import STAND_INS, WORDS, name_of
 from trunnion.formats.caesar.geometry import Labels, size
 from trunnion.formats.caesar.job import Element, HangerData, Job, Restraint, Vec
 from trunnion.formats.findings import Findings
 from trunnion.model import Direction, HangerDesign, Model, Place, Support
 
 _AXES = "XYZ"
-# code -> word of the model; what is not here has no counterpart
-WORDS: dict[int, str] = {1: "ANC", 8: "GUIDE", 9: "LIMIT", 25: "+LIM", 26: "-LIM"}
-for _k, _axis in enumerate(_AXES):
-    WORDS |= {2 + _k: _axis, 5 + _k: f"R{_axis}", 13 + _k: f"+{_axis}", 16 + _k: f"-{_axis}"}
-    WORDS |= {19 + _k: f"+R{_axis}", 22 + _k: f"-R{_axis}", 10 + _k: f"{_axis}SNB"}
-# codes that the program's guide has and a model has not
-OTHERS: dict[int, str] = {}
-for _k, _axis in enumerate(_AXES):
-    OTHERS |= {27 + _k: f"{_axis}ROD", 30 + _k: f"+{_axis}ROD", 33 + _k: f"-{_axis}ROD"}
-    OTHERS |= {36 + _k: f"{_axis}2", 39 + _k: f"R{_axis}2", 42 + _k: f"+{_axis}2"}
-    OTHERS |= {45 + _k: f"-{_axis}2", 48 + _k: f"+R{_axis}2", 51 + _k: f"-R{_axis}2"}
-    OTHERS |= {54 + _k: f"{_axis}SPR", 57 + _k: f"+{_axis}SNB", 60 + _k: f"-{_axis}SNB"}
+ANVIL = (0, 1)  # numbers of hanger tables: the default, which is the maker's of number 1
+FLAT = 1e-4  # an element with less of its length in the plane of the ground is a riser
+_X, _Y, _Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 _TAG = re.compile(r"[^\s=!&(),\"']{1,64}")
 
 
@@ -43,8 +36,7 @@ class Restraints:
         groups: dict[tuple[str, str | None], list[tuple[Restraint, Direction]]] = {}
         for r in e.restraints:
             for label, cnode in self._places(e, r):
-                direction = self._direction(i, e, r, label)
-                if direction is not None:
+                for direction in self._directions(i, e, r, label):
                     groups.setdefault((label, cnode), []).append((r, direction))
         for (label, cnode), members in groups.items():
             self._support(e, label, cnode, members)
@@ -54,7 +46,7 @@ class Restraints:
         label = self.labels.node(r.node)
         key = (r.node, r.code, r.stiffness, r.gap, r.mu, r.cnode, r.cosines)
         if label is None:
-            text = f"restraint {_word(r.code)} at node {r.node}, which no element has"
+            text = f"restraint {name_of(r.code)} at node {r.node}, which no element has"
             self.findings.leave_out(r.line, f"node {r.node}", text)
         elif key not in self._seen:
             self._seen.add(key)
@@ -64,14 +56,21 @@ class Restraints:
             text = "restraints that are given twice, with equal values, are one support"
             self.findings.assume(text, r.line)
 
-    def _direction(self, i: int, e: Element, r: Restraint, label: str) -> Direction | None:
-        """Make a direction word; anchors and snubbers are words of their own here."""
+    def _directions(self, i: int, e: Element, r: Restraint, label: str) -> list[Direction]:
+        """Make direction words: one, or two for a guide on a riser at the end of a bend."""
         word = WORDS.get(r.code)
-        if word is None or word in ("+LIM", "-LIM"):
-            shown = word or OTHERS.get(r.code) or f"of code {r.code}"
-            text = f"restraint {shown}: a model has no such support; left out"
-            self.findings.leave_out(r.line, f"node {r.node}", text)
-            return None
+        if word is None:
+            word, r = self._stand_in(r)
+            if not word:
+                return []
+        if word in ("+LIM", "-LIM"):
+            return self._one_sided(e, r, word)
+        if word in ("GUIDE", "LIMIT") and self._follows_owner(i, e, label):
+            return self._along_owner(e, r, word)
+        return [self._direction(i, e, r, label, word)]
+
+    def _direction(self, i: int, e: Element, r: Restraint, label: str, word: str) -> Direction:
+        """Make a direction word; anchors and snubbers are words of their own here."""
         if word == "ANC":
             if r.gap or r.mu:
                 text = "an anchor with a gap or friction; taken without"
@@ -92,6 +91,57 @@ class Restraints:
                 self.findings.leave_out(r.line, f"node {r.node}", text)
             return Direction(word, None, gap, r.stiffness)
         return self._along(r, word[-1], Direction(word, None, gap, r.stiffness, None, r.mu or None))
+
+    def _stand_in(self, r: Restraint) -> tuple[str, Restraint]:
+        """Say that a model has no such support; give the word that stands in for it."""
+        word, lost = STAND_INS.get(r.code, ("", ""))
+        text = lost or "a model has no such support; left out"
+        self.findings.leave_out(r.line, f"node {r.node}", f"restraint {name_of(r.code)}: {text}")
+        # its other values are a length, a second stiffness, a load
+        return word, replace(r, gap=0.0, mu=0.0)
+
+    def _follows_owner(self, i: int, e: Element, label: str) -> bool:
+        """Tell whether a guide or stop stands where the arc has left its element's direction.
+
+        The program takes both from the element that owns them, at the end of its bend as well.
+        """
+        node = int(label.rstrip("NMF"))
+        corner = self.labels.corners.get(node)
+        at_end = corner is not None and corner.before == i and label[-1] not in "N"
+        return at_end and size(e.delta) > 0.0
+
+    def _along_owner(self, e: Element, r: Restraint, word: str) -> list[Direction]:
+        """Make directions along or across an element, as words of the axes where they are."""
+        x, y, z = e.delta
+        if word == "LIMIT":
+            ways: list[Vec] = [e.delta]
+        elif self.job.up == "Y":
+            ways = [(-z, 0.0, x)] if abs(x) + abs(z) > FLAT * size(e.delta) else [_X, _Z]
+        else:
+            ways = [(y, -x, 0.0)] if abs(x) + abs(y) > FLAT * size(e.delta) else [_X, _Y]
+        gap, mu = (r.gap, r.gap), r.mu or None
+        made = []
+        for way in ways:
+            unit = _unit(way)
+            axis = next((a for k, a in enumerate(_AXES) if abs(unit[k]) == 1.0), None)
+            word = axis or f"({','.join(f'{x:g}' for x in unit)})"
+            vector = None if axis else unit
+            made.append(Direction(word, vector, gap, r.stiffness, None, mu))
+        return made
+
+    def _one_sided(self, e: Element, r: Restraint, word: str) -> list[Direction]:
+        """Make a line stop of one side: free along its element from FROM to TO, or against it."""
+        if size(e.delta) == 0.0:
+            text = f"{word} on an element without length; left out"
+            self.findings.leave_out(r.line, f"node {r.node}", text)
+            return []
+        x, y, z = _unit(e.delta)
+        text = (
+            f"node {r.node}: {word} lets the pipe move {'along' if word[0] == '+' else 'against'}"
+        )
+        self.findings.assume(f"{text} {e.start}-{e.end} and stops it the other way", r.line)
+        vector = f"{word[0]}({x:g},{y:g},{z:g})"
+        return [Direction(vector, (x, y, z), (r.gap, r.gap), r.stiffness, None, r.mu or None)]
 
     def _along(self, r: Restraint, axis: str, made: Direction) -> Direction:
         """Give a direction its own vector where the cosines do not lie along its axis."""
@@ -153,7 +203,7 @@ class Restraints:
             self._note(made, [r for r, _ in together])
 
     def _note(self, made: Support, members: list[Restraint]) -> None:
-        what = ", ".join(f"{_word(r.code)} (line {r.line})" for r in members)
+        what = ", ".join(f"{name_of(r.code)} (line {r.line})" for r in members)
         tags = dict.fromkeys(r.tag for r in members if r.tag and r.tag != made.name)
         self.findings.note(made, f"restraints {what}" + "".join(f", tag {t}" for t in tags))
 
@@ -184,13 +234,34 @@ class Restraints:
             self.findings.leave_out(h.line, f"node {h.node}", text)
         method = "COLD" if h.cold_design else "HOT"
         variation = h.variation / 100.0
+        known = h.table in ANVIL
         design = HangerDesign(variation, h.rod, h.most, min(n, 100), method)
+        design = replace(design, table="ANVIL") if known else design
+        free = [*self._freed(h), None, None]
+        design = replace(design, free=free[0], free2=free[1])
         name = self._name(h.tag)
         made = Support(label, "hanger", (), cnode, name, 0.0, place=place, design=design)
         self.model.supports.append(made)
         self.findings.note(made, f"hanger of line {h.line}, to be designed; table {h.table}")
-        text = "springs of hangers are selected from Trunnion's generic table, of no maker"
+        text = f"hanger table {h.table} is not here: springs are of a generic table, of no maker"
+        if known:
+            text = "springs of hangers are selected from the program's default table (ANVIL)"
         self.findings.assume(text, h.line)
+
+    def _freed(self, h: HangerData) -> list[str]:
+        """Labels of the anchors that the design of a hanger frees."""
+        found = []
+        for node, code in h.free:
+            label = self.labels.node(node)
+            if label is None:
+                text = f"hanger that frees node {node}, which no element has"
+                self.findings.leave_out(h.line, f"node {h.node}", text)
+                continue
+            found.append(label)
+            if code > 1:
+                text = f"the hanger at {h.node} frees more than the vertical of {node}: that alone"
+                self.findings.assume(f"{text} is freed while the weight is balanced", h.line)
+        return found
 
     def _name(self, tag: str) -> str | None:
         """Take a tag as the name of a support where it can be one and is the only one."""
@@ -198,11 +269,10 @@ class Restraints:
         return tag if fits and self._tags[tag] == 1 else None
 
 
-def _word(code: int) -> str:
-    """Name a code as the program does."""
-    return {"GUIDE": "GUI", "LIMIT": "LIM"}.get(WORDS.get(code, ""), WORDS.get(code, "")) or (
-        OTHERS.get(code) or f"of code {code}"
-    )
+def _unit(v: Vec) -> Vec:
+    """Unit vector without the noise of the last digits."""
+    x, y, z = (round(x / size(v), 12) + 0.0 for x in v)
+    return x, y, z
 
 
 def _is_axis(c: Vec, axis: str) -> bool:

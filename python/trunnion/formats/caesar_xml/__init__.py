@@ -9,6 +9,7 @@ from math import isfinite
 from trunnion.formats.caesar.build import build
 from trunnion.formats.caesar.job import Element, Job
 from trunnion.formats.caesar_xml.elements import Elements
+from trunnion.formats.caesar_xml.restrainttypes import written_by_guide
 from trunnion.formats.caesar_xml.tags import Numbers, Tag, read_tags
 from trunnion.formats.caesar_xml.xmlunits import read_units
 from trunnion.formats.findings import Findings
@@ -40,7 +41,7 @@ def read(source: Source, findings: Findings) -> Imported:
     assert root is not None
     version, model = _model(root, numbers)
     findings.stop()
-    job = read_job(model, numbers)
+    job = read_job(model, numbers, version)
     findings.stop()
     header = [f"{len(job.elements)} elements"]
     if source.encoding != "utf-8":
@@ -71,7 +72,7 @@ def _model(root: Tag, numbers: Numbers) -> tuple[float, Tag]:
     return version, models[0]
 
 
-def read_job(model: Tag, numbers: Numbers) -> Job:
+def read_job(model: Tag, numbers: Numbers, version: float) -> Job:
     """Read the elements and all that hangs on them, in SI."""
     findings = numbers.findings
     tags = model.all("PIPINGELEMENT")
@@ -83,7 +84,7 @@ def read_job(model: Tag, numbers: Numbers) -> Job:
         numbers.fault(model, "there is no PIPINGELEMENT")
     _check_counts(model, tags, numbers)
     findings.stop()
-    reader = Elements(numbers, units)
+    reader = Elements(numbers, units, guide=written_by_guide(tags, numbers))
     elements = tuple(reader.element(tag) for tag in tags)
     _report_sizes(elements, findings)
     findings.assume(f"the XML has no ambient temperature: {AMBIENT:g} C (70 F)")
@@ -95,6 +96,7 @@ def read_job(model: Tag, numbers: Numbers) -> Job:
         ambient=AMBIENT,
         units=units.names,
         titles=_titles(model),
+        version=version,
     )
 
 

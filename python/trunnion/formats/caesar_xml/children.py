@@ -18,10 +18,9 @@ from trunnion.formats.caesar.job import (
     WindData,
 )
 from trunnion.formats.caesar.units import FileUnits
+from trunnion.formats.caesar_xml.restrainttypes import code_of
 from trunnion.formats.caesar_xml.tags import Numbers, Tag
 
-#: restraint types of the XML -> codes of the neutral file; those of the guide do not apply
-CODES = {0: 1, 1: 2, 2: 3, 3: 4, 4: 5, 5: 6, 6: 7, 7: 8, 10: 9, 16: 13, 17: 14, 18: 15}
 _RIGIDS = {"UNSPECIFIED": 0, "VALVE": 1, "FLANGE": 2, "FLANGE PAIR": 3, "FLANGED VALVE": 4}
 _MOVES = ("DX", "DY", "DZ", "RX", "RY", "RZ")
 _PUSHES = ("FX", "FY", "FZ", "MX", "MY", "MZ")
@@ -32,7 +31,8 @@ STILL: Six = (0.0,) * 6
 class Children:
     """Reads the children of elements in the units of a file."""
 
-    def __init__(self, numbers: Numbers, units: FileUnits) -> None:
+    def __init__(self, numbers: Numbers, units: FileUnits, *, guide: bool = False) -> None:
+        self.guide = guide  # restraint types are those of the guide
         self.numbers = numbers
         self.findings = numbers.findings
         self.units = units
@@ -74,23 +74,12 @@ class Children:
         if not node or code is None:
             return None
         cosines = tuple(n.of(tag, f"{axis}COSINE") for axis in "XYZ")
-        known = CODES.get(int(code)) if code == round(code) and abs(code) < 1000.0 else None
-        foreign = code in (1.0, 8.0, 9.0, 14.0) and self._by_guide(int(code), cosines)
-        if foreign:
-            text = "type {:g} with these cosines is of the vendor's guide, not of its program: "
-            text = text.format(code) + "written by another program; which code it means is open"
-            self.findings.leave_out(tag.line, f"{name}, node {node}", text)
-            return None
+        known, doubt = code_of(code, cosines, guide=self.guide)
+        if doubt:
+            self.findings.leave_out(tag.line, f"{name}, node {node}", doubt)
         if known is None:
-            text = f"restraint of type {code:g}, whose meaning is not known"
-            self.findings.leave_out(tag.line, f"{name}, node {node}", text)
             return None
         return self._known(tag, node, known, (cosines[0], cosines[1], cosines[2]))
-
-    @staticmethod
-    def _by_guide(code: int, cosines: tuple[float, ...]) -> bool:
-        """Tell whether a code only makes sense in the guide's list (1 ANC, 8 GUI, 9 LIM, 14 +Y)."""
-        return not any(cosines) if code == 1 else any(cosines)
 
     def _known(
         self, tag: Tag, node: int, code: int, cosines: tuple[float, float, float]
@@ -180,7 +169,14 @@ class Children:
             cnode=n.node(tag, "CNODE"),
             table=max(0, n.whole(tag, "HGR_TABLE")),
             tag=tag.attributes.get("TAG", "").strip(),
+            free=self._freed(tag),
         )
+
+    def _freed(self, tag: Tag) -> tuple[tuple[int, int], ...]:
+        """Nodes that a hanger's design frees, and the codes of their freedoms."""
+        n = self.numbers
+        pairs = ((n.node(tag, f"FREEANCHOR{k}"), n.whole(tag, f"DOFTYPE{k}", 1)) for k in "12")
+        return tuple((node, code) for node, code in pairs if node)
 
     def joint(self, tag: Tag) -> JointData:
         """Read EXPANSIONJOINT."""

@@ -37,11 +37,11 @@ _CHILDREN = frozenset(
 class Elements:
     """Reads the elements one after another."""
 
-    def __init__(self, numbers: Numbers, units: FileUnits) -> None:
+    def __init__(self, numbers: Numbers, units: FileUnits, *, guide: bool = False) -> None:
         self.numbers = numbers
         self.findings = numbers.findings
         self.units = units
-        self.children = Children(numbers, units)
+        self.children = Children(numbers, units, guide=guide)
         self.before: dict[str, float | None] = dict.fromkeys(CARRIED)
         self.hangers: list[HangerData] = []
         self.nozzles: list[Nozzle] = []

@@ -125,6 +125,11 @@ def read_line(found: list[Block], findings: Findings) -> Line:
     """Read the components of a file."""
     units = _Units(found, findings)
     materials = _materials(found)
+    identified = {
+        block.value: block.get("ITEM-CODE") or ""
+        for block in found
+        if block.keyword == "MATERIAL-IDENTIFIER"
+    }
     pipeline = ""
     shared: tuple[Attribute, ...] = ()
     parts: list[Part] = []
@@ -151,7 +156,7 @@ def read_line(found: list[Block], findings: Findings) -> Line:
         elif SHAPES.get(word) == "mark":
             skipped[word] = skipped.get(word, 0) + 1
         elif word in SHAPES:
-            part = _part(block, units.length, findings)
+            part = _identified(_part(block, units.length, findings), identified)
             item = part.get("ITEM-CODE") or ""
             text = materials.get(item, "")
             parts.append(replace(part, pipeline=pipeline, shared=shared, description=text))
@@ -187,6 +192,14 @@ def _part(block: Block, unit: float, findings: Findings) -> Part:
         at[0] if at else None,
         rest,
     )
+
+
+def _identified(part: Part, items: Mapping[str, str]) -> Part:
+    """Give a component the item code of its MATERIAL-IDENTIFIER, as some writers have it."""
+    item = items.get(part.get("MATERIAL-IDENTIFIER") or "")
+    if not item or part.get("ITEM-CODE"):
+        return part
+    return replace(part, attributes=(*part.attributes, Attribute("ITEM-CODE", item, part.line)))
 
 
 _BRANCHES = ("BRANCH1-POINT", "BRANCH2-POINT")
@@ -251,6 +264,8 @@ def _materials(found: list[Block]) -> dict[str, str]:
     for block in found:
         if block.keyword == "ITEM-CODE":
             texts[block.value] = block.get("DESCRIPTION") or ""
+        elif block.keyword == "MATERIAL-IDENTIFIER":
+            texts[block.get("ITEM-CODE") or ""] = block.get("DESCRIPTION") or ""
         code = None  # a file that indents what stands under MATERIALS
         for a in block.attributes if block.keyword == "MATERIALS" else ():
             if a.name == "ITEM-CODE":
