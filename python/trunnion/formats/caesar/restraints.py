@@ -67,6 +67,10 @@ class Restraints:
             return self._one_sided(e, r, word)
         if word in ("GUIDE", "LIMIT") and self._follows_owner(i, e, label):
             return self._along_owner(e, r, word)
+        if word in ("GUIDE", "LIMIT") and not self._has_pipe(int(label.rstrip("NMF"))):
+            text = f"{name_of(r.code)} where no element has a length; left out"
+            self.findings.leave_out(r.line, f"node {r.node}", text)
+            return []
         return [self._direction(i, e, r, label, word)]
 
     def _direction(self, i: int, e: Element, r: Restraint, label: str, word: str) -> Direction:
@@ -108,7 +112,12 @@ class Restraints:
         node = int(label.rstrip("NMF"))
         corner = self.labels.corners.get(node)
         at_end = corner is not None and corner.before == i and label[-1] not in "N"
-        return at_end and size(e.delta) > 0.0
+        return (at_end or not self._has_pipe(node)) and size(e.delta) > 0.0
+
+    def _has_pipe(self, node: int) -> bool:
+        """Tell whether an element with a length is at a node (or a node is on an arc)."""
+        here = self.labels.at.get(node)
+        return here is None or any(size(self.job.elements[j].delta) for j in here)
 
     def _along_owner(self, e: Element, r: Restraint, word: str) -> list[Direction]:
         """Make directions along or across an element, as words of the axes where they are."""
