@@ -515,7 +515,7 @@ def test_a_name_at_many_supports_is_a_type_and_no_name(load):
 
 
 def test_headers_messages_and_items_of_a_plant_model(load):
-    """UID before the pipeline, MESSAGE blocks, MATERIAL-IDENTIFIER for the item: all in one file."""
+    """UID before the pipeline, MESSAGE blocks, MATERIAL-IDENTIFIER for the item."""
     text = HEADER.replace("PIPELINE-REFERENCE", "UID 6517D368\nPIPELINE-REFERENCE")
     text += pipe((0, 0, 0), (1000, 0, 0), MATERIAL_IDENTIFIER=3)
     text += "MESSAGE\n    CO-ORDS 0.0 0.0 0.0\n    TEXT DL G465B\nMATERIALS\n"
