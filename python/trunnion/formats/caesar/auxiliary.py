@@ -196,7 +196,7 @@ class Auxiliary:
     def sifs(self, line: int) -> tuple[tuple[int, int], ...]:
         """Read two slots of a node and the type of its intersection or weld; the rest is checks."""
         each = self.arrays["SIF&TEES"].width // 2
-        slots = (self.columns.reals(at, 2) for at in (line, line + each))
+        slots = (self.columns.reals(at, 6)[:2] for at in (line, line + each))
         return tuple((int(n), int(kind)) for n, kind in slots if 0 < n < 1e9 and 0 < kind < 100)
 
     def code(self, line: int) -> int:
