@@ -115,9 +115,13 @@ class Restraints:
         return (at_end or not self._has_pipe(node)) and size(e.delta) > 0.0
 
     def _has_pipe(self, node: int) -> bool:
-        """Tell whether an element with a length is at a node (or a node is on an arc)."""
+        """Tell whether a pipe ends at a node itself, without an offset, or has it on its arc."""
         here = self.labels.at.get(node)
-        return here is None or any(size(self.job.elements[j].delta) for j in here)
+        if here is None:
+            return True
+        return any(
+            size(e.delta) and not _arm(e, node) for e in map(self.job.elements.__getitem__, here)
+        )
 
     def _along_owner(self, e: Element, r: Restraint, word: str) -> list[Direction]:
         """Make directions along or across an element, as words of the axes where they are."""
@@ -276,6 +280,13 @@ class Restraints:
         """Take a tag as the name of a support where it can be one and is the only one."""
         fits = _TAG.fullmatch(tag) is not None and tag.isprintable()
         return tag if fits and self._tags[tag] == 1 else None
+
+
+def _arm(e: Element, node: int) -> bool:
+    """Tell whether an element stands off its node."""
+    if e.offsets is None:
+        return False
+    return any(e.offsets.start if node == e.start else e.offsets.end)
 
 
 def _unit(v: Vec) -> Vec:
