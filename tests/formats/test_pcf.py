@@ -524,3 +524,14 @@ def test_headers_messages_and_items_of_a_plant_model(load):
     result = load(text, table)
     assert next(iter(result.model.sections.values())).wall == 0.004
     assert "Rohr 60,3x4" in result.deck()
+
+
+def test_decimal_commas_are_read_where_the_whole_file_has_them(load):
+    whole = load(everything())
+    commas = "\n".join(
+        line.replace(".", ",") if "POINT" in line or "CO-ORDS" in line or "WEIGHT" in line else line
+        for line in everything().split("\n")
+    ).replace("ISOGEN,FLS", "ISOGEN.FLS")
+    result = load(commas)
+    assert result.model == whole.model
+    assert any("decimal commas" in a.text for a in result.assumed)

@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 from trunnion.formats.caesar.geometry import Labels
+from trunnion.formats.caesar.hangers import Hangers
 from trunnion.formats.caesar.job import Job
 from trunnion.formats.caesar.loads import Loads
 from trunnion.formats.caesar.offsets import links_for_offsets
@@ -40,8 +41,9 @@ def build(job: Job, findings: Findings, name: str, header: tuple[str, ...] = ())
     restraints = Restraints(job, labels, model, findings)
     for i in range(len(job.elements)):
         restraints.element(i)
+    hangers = Hangers(job, labels, model, findings, restraints.name)
     for hanger in job.hangers:
-        restraints.hanger(hanger)
+        hangers.add(hanger)
     _hinges(hinges, labels, model, findings)
     _nozzles(job, labels, model, findings)
     loads = Loads(job, labels, model, findings)
