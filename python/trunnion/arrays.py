@@ -403,6 +403,7 @@ class CaseResult:
     linear: bool = True  # False: a combination with ABS or of two moduli: no interior points
     frozen_check: tuple[FrozenBreak, ...] = ()  # of a locked case: what its assumption breaks
     gathered: Gathered | None = None  # None where contacts have states
+    total: "CaseResult | None" = None  # of a NONLINEAR increment: both loads together
 
     @property
     def penalty_u(self) -> F8 | None:
@@ -453,6 +454,7 @@ class ModeSet:
     added : number of extra nodes.
     part_of, last : elements of the model, see `solver.mesh.Mesh`.
     proven : a Sturm count shows that no mode below `counted` [Hz] is missing.
+    cut : cut-off for which nodes were added [Hz].
     """
 
     system: System
@@ -469,6 +471,7 @@ class ModeSet:
     last: I4
     proven: bool
     counted: float
+    cut: float = 0.0
 
     @property
     def table(self) -> "Table":

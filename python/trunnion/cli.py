@@ -42,8 +42,11 @@ class LateGroup(click.Group):
 
 @click.group(cls=LateGroup, context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(package_name="trunnion")
-def cli() -> None:
+@click.pass_context
+def cli(context: click.Context) -> None:
     """Solve piping whose supports lift off, close gaps and slide with friction."""
+    if os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb":
+        context.color = False
 
 
 def main(arguments: Sequence[str] | None = None) -> NoReturn:
@@ -68,7 +71,9 @@ def _guarded(arguments: Sequence[str] | None) -> int:
         click.echo(str(error), err=True)
         return BAD_INPUT
     except (click.Abort, KeyboardInterrupt):
-        click.echo("interrupted, nothing was written", err=True)
+        before = signal.signal(signal.SIGINT, signal.SIG_IGN)  # one line, however impatient
+        click.echo("interrupted: nothing is half written", err=True)
+        signal.signal(signal.SIGINT, before)
         return INTERRUPTED
     except OSError as error:
         name = f"{error.filename}: " if error.filename else ""

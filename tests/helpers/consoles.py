@@ -20,7 +20,7 @@ def run_page(page: Path, folder: Path) -> list[tuple[int, str, str, str]]:
     for block in blocks(page):
         if block.name and block.language in ("deck", "python"):
             (folder / block.name).write_text(block.text, encoding="utf-8")
-        if block.language != "console":
+        if block.language != "console" or block.name == "screen":  # `docscreens` has a terminal
             continue
         for line, command, printed in commands(block.text, block.line):
             done = subprocess.run(

@@ -163,7 +163,7 @@ def test_files_of_other_programs_come_in_by_their_door(decks, tmp_path, monkeypa
 
     import trunnion.formats
 
-    def read_any(path, *, permissive):
+    def read_any(path, *, permissive, options):
         (tmp_path / f"asked{permissive}").touch()
         return SimpleNamespace(model=trunnion.read(decks[0]))
 
@@ -176,6 +176,77 @@ def test_files_of_other_programs_come_in_by_their_door(decks, tmp_path, monkeypa
         assert [(e.status, e.skipped) for e in done.entries] == [("certified", False)]
         assert (tmp_path / f"asked{permissive}").exists()
     assert trunnion.batch([foreign], tmp_path / "out", permissive=True)["line"].skipped
+
+
+FORMATS = ("--csv", "--xlsx", "--vtu", "--h5", "--html")
+
+
+def test_every_further_report_is_that_of_a_single_run(decks, tmp_path):
+    code, _, err = run(*decks[:2], "-o", tmp_path / "out", *FORMATS)
+    assert code == 0, err
+    for deck in decks[:2]:
+        subprocess.run(
+            [sys.executable, "-m", "trunnion", "run", deck, "-o", tmp_path / "one", *FORMATS],
+            check=True, capture_output=True,
+        )  # fmt: skip
+    batch, one = (
+        {
+            path.relative_to(folder): path.read_bytes()
+            for path in folder.rglob("*")
+            if path.is_file() and FOLDER not in path.parts and "summary." not in path.name
+        }
+        for folder in (tmp_path / "out", tmp_path / "one")
+    )
+    batch |= {name: one[name] for name in one if name.name == "summary.csv"}
+    assert batch == one
+    assert {path.suffix for path in one} >= {".csv", ".xlsx", ".vtu", ".pvd", ".h5", ".html"}
+
+
+def test_a_further_report_that_was_changed_is_made_again(decks, tmp_path):
+    trunnion.batch(decks[:1], tmp_path / "out", also=["csv"])
+    assert trunnion.batch(decks[:1], tmp_path / "out", also=["csv"]).entries[0].skipped
+    (tmp_path / "out/strut_three_csv/summary.csv").write_text("")
+    assert not trunnion.batch(decks[:1], tmp_path / "out", also=["csv"]).entries[0].skipped
+
+
+def test_options_go_to_the_files_that_have_a_use_for_them(decks, tmp_path):
+    import cii_jobs
+    import pcf_lines
+
+    (tmp_path / "a.pcf").write_text(pcf_lines.everything())
+    (tmp_path / "table.toml").write_text(pcf_lines.TABLE)
+    (tmp_path / "b.cii").write_text(cii_jobs.everything(11.0).text(), encoding="cp1252")
+    files = [tmp_path / "a.pcf", tmp_path / "b.cii", decks[0]]
+    more = ("--table", tmp_path / "table.toml", "--anchor", "open-ends", "--permissive")
+    _, out, _ = run(*files, "-o", tmp_path / "out", *more)
+    found = {e["stem"]: e["status"] for e in summary(tmp_path / "out")["entries"]}
+    assert found["a"] in ("certified", "failed"), out
+    assert found["strut_three"] == "certified"
+    assert found["b"] != "bad deck", out
+    _, out, _ = run(*files, "-o", tmp_path / "out", *more)
+    assert "3 of them finished before" in out
+    (tmp_path / "table.toml").write_text(pcf_lines.TABLE.replace("150C", "140C"))
+    _, out, _ = run(*files, "-o", tmp_path / "out", *more)
+    assert "2 of them finished before" in out
+
+
+def test_options_for_other_programs_mean_nothing_for_decks_alone(decks, tmp_path):
+    code, out, err = run(*decks, "-o", tmp_path / "out", "--anchor", "open-ends")
+    assert (code, out) == (2, "")
+    assert "--anchor" in err
+    assert "for files of other programs (.cii .pcf .xml)" in err
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_package_that_is_missing_is_named_before_any_work(decks, tmp_path, monkeypatch, capsys):
+    from trunnion.cli import main
+
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
+    with pytest.raises(SystemExit) as stop:
+        main(["batch", *map(str, decks), "-o", str(tmp_path / "out"), "--html"])
+    assert stop.value.code == 2
+    assert "pip install 'trunnion[html]'" in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
 
 
 # ------------------------------------------------------------------ what is not done twice
@@ -204,7 +275,7 @@ def test_only_what_changed_is_solved_again(decks, tmp_path):
         assert [not entry.skipped for entry in again.entries] == [i == redone for i in range(3)]
 
 
-@pytest.mark.parametrize("options", [{"h5": True}, {"redo": True}])
+@pytest.mark.parametrize("options", [{"also": ["csv"]}, {"redo": True}])
 def test_other_settings_solve_again(decks, tmp_path, options):
     trunnion.batch(decks, tmp_path / "out")
     again = trunnion.batch(decks, tmp_path / "out", **options)

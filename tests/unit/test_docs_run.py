@@ -6,7 +6,9 @@ import pytest
 from consoles import run_page, same
 from pages import PAGES, ROOT, blocks
 
-WITH_CONSOLE = [p for p in PAGES if any(b.language == "console" for b in blocks(p))]
+WITH_CONSOLE = [
+    p for p in PAGES if any(b.language == "console" and b.name != "screen" for b in blocks(p))
+]
 WITH_PYTHON = [p for p in PAGES if any(b.language == "python" and not b.name for b in blocks(p))]
 
 

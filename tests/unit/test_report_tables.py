@@ -296,3 +296,73 @@ def test_what_a_foreign_file_left_out_stands_first_among_the_warnings(results, m
         "from line.cii, CAESAR II neutral file",
         "LEFT OUT: node 30: a clamp is left out (line.cii:12)",
     ]
+
+
+# ------------------------------------------------------------------ cycles and other answers
+LOOP = LINE.replace("COMB BIG = ABS(OPE)\n", "CYCLE HEAT = OPE, SUS TIMES=2\n")
+
+
+@pytest.fixture(scope="module")
+def looped():
+    model = read_text(LOOP, "line.inp")
+    return model, trunnion.solve(model, spread=2)
+
+
+def test_cycles_and_other_answers_have_sheets_where_there_are_any(looped, book):
+    found = book_of(looped[1], looped[0]).sheetnames
+    own = ["Cycles", "Cycle forces", "Spread tries", "Spread", "Spread forces"]
+    assert [name for name in found if name in own] == own
+    assert not set(own) & set(book.sheetnames)
+
+
+def test_loads_and_ranges_of_a_cycle_are_those_of_the_json(looped):
+    model, results = looped
+    rows = rows_of(book_of(results, model)["Cycles"])
+    stored = json.loads(json_report(results, model))["cycles"]["HEAT"]
+    assert len(rows) == 4 * (4 + 2)  # cards, steps and ranges
+    for card in stored["supports"]:
+        own = {row["AFTER"]: row for row in rows if row["NODE"] == card["id"]}
+        for step, load in zip(stored["steps"], card["path"], strict=True):
+            for head, value in zip(LOADS, load, strict=True):
+                close(own[step][head], -value / 1e3)
+        for name, key in (("RANGE, LOOP", "range"), ("RANGE, ONE SHOT", "one_shot")):
+            for head, value in zip(LOADS, card[key], strict=True):
+                close(own[name][head], value / 1e3)
+        shown = [own["RANGE, LOOP"][f"RATIO {head}"] for head in LOADS]
+        for found, expected in zip(shown, card["ratio"], strict=True):
+            assert (found is None) == (expected is None)
+            close(found or 0.0, expected or 0.0)
+    assert any(card["ratio"][0] for card in stored["supports"])
+
+
+def test_ranges_of_end_forces_over_a_cycle_are_those_of_the_json(looped):
+    model, results = looped
+    rows = read_csv(csv_report.files(results, model, "line"), "cycle_forces")
+    stored = json.loads(json_report(results, model))["cycles"]["HEAT"]["elements"]
+    assert len(rows) == 4 * len(stored)
+    for element in stored:
+        own = [row for row in rows if row["ELEMENT"] == element["id"]]
+        keys = ("range_from", "one_shot_from", "range_to", "one_shot_to")
+        for row, key in zip(own, keys, strict=True):
+            for head, unit, value in zip(
+                LOADS, ["kN"] * 3 + ["kN.m"] * 3, element[key], strict=True
+            ):
+                close(float(row[f"{head} [{unit}]"]), value / 1e3)
+
+
+def test_spread_of_other_answers_is_that_of_the_json(looped):
+    model, results = looped
+    files = csv_report.files(results, model, "line")
+    stored = json.loads(json_report(results, model))["spread"]["OPE"]
+    rows = read_csv(files, "spread")
+    for kind in ("starts", "orders"):
+        for card in stored[kind]["supports"]:
+            (row,) = [
+                r for r in rows
+                if (r["CASE"], r["OTHER"], r["NODE"]) == ("OPE", kind.upper(), card["id"])
+            ]  # fmt: skip
+            for head, value in zip(LOADS[:3], card["spread"][:3], strict=True):
+                close(float(row[f"{head} [kN]"]), value / 1e3)
+    tries = [r for r in read_csv(files, "spread_tries") if r["CASE"] == "OPE"]
+    assert len(tries) == len(stored["starts"]["tried"]) + len(stored["orders"]["tried"])
+    assert [r["ANSWER"] for r in tries][:2] == ["1", "1"]

@@ -431,3 +431,17 @@ def test_a_study_that_cannot_be_writes_nothing(tmp_path, arguments):
     assert (code, out) == (2, "")
     assert "nothing was solved" in err
     assert not (tmp_path / "out").exists()
+
+
+def test_a_file_of_another_program_is_studied_with_its_options(tmp_path):
+    import pcf_lines
+
+    (tmp_path / "a.pcf").write_text(pcf_lines.everything())
+    (tmp_path / "table.toml").write_text(pcf_lines.TABLE)
+    command = [sys.executable, "-m", "trunnion", "study", "a.pcf", "--vary", "T1=100,150"]
+    more = ["--table", "table.toml", "--anchor", "open-ends", "--permissive", "-j", "1"]
+    done = subprocess.run([*command, *more], cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode in (0, 1), done.stderr
+    assert "2 variants of" in done.stdout
+    done = subprocess.run([*command, "--permissive"], cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 2  # without its table

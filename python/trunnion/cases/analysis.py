@@ -31,6 +31,7 @@ from trunnion.solver.linear import Prepared, solve_linear
 from trunnion.solver.steps import Origin, Plan
 from trunnion.solver.structure import Structure
 from trunnion.system import build_system, hot_system, shares_pattern
+from trunnion.watch import Watch
 
 
 @frozen(eq=False)
@@ -51,6 +52,7 @@ def solve(
     starts: Mapping[str, Start] | None = None,
     session: Session | None = None,
     spread: int = 0,
+    watch: Watch | None = None,
 ) -> Results:
     """Solve every case and combination of a model; one without cases takes default ones.
 
@@ -59,6 +61,7 @@ def solve(
     starts : other starts of the iterations by case name; the law solved is the same.
     session : what earlier solves left; see `Session`.
     spread : number of other starts of every case in a search for further answers; see `Spread`.
+    watch : is told what is being done, for whoever wants to show it.
 
     Raises
     ------
@@ -68,13 +71,15 @@ def solve(
         The structure is impossible, or moves freely even with every contact closed.
     """
     model.check()
+    watch = watch or Watch()
+    watch.turn("solving")
     choices: tuple[HangerChoice, ...] = ()
     if any(s.design is not None for s in model.supports):
         from trunnion.cases.hangers import designed
 
         model, choices = designed(model)
     try:
-        run = Run(with_cases(model), starts or {}, session)
+        run = Run(with_cases(model), starts or {}, session, watch=watch)
         results = run.results()
         results.hangers = choices
     except ModelError as error:
@@ -86,6 +91,7 @@ def solve(
     if spread:
         from trunnion.cases.spread import spreads
 
+        watch.turn("looking for other answers:")
         results.spreads = spreads(run, spread)
         for name, found in results.spreads.items():
             if (n := len(found.starts.answers)) > 1:
@@ -151,10 +157,11 @@ class Run:
         *,
         like: "Run | None" = None,
         prepared: tuple[System, LoadSets] | None = None,
+        watch: Watch | None = None,
     ) -> None:
         self.model, self.starts, self.like = model, starts, like
         self.session = session or Session()
-        self.ledger: Ledger = Ledger() if like is None else like.ledger
+        self.ledger: Ledger = Ledger(watch) if like is None else like.ledger
         if prepared is None:
             self.system = build_system(model)
             self.sets = load_sets(model, self.system)
@@ -171,6 +178,7 @@ class Run:
         """Solve all, in an order in which every case finds what it starts from."""
         cases = in_order(self.model.cases)
         plain = [c for c in cases if isinstance(c, Case) and not (c.about or c.on or c.spectrum)]
+        self.ledger.watch.total = sum(isinstance(c, Case) for c in cases)
         prepared, sums = self._solve_linear(plain)
         for own in plain:
             ready = sums.get(own.name)
@@ -199,6 +207,7 @@ class Run:
             return None
         from trunnion.cases.dynamics import Dynamics
 
+        self.ledger.watch.begin("natural modes")
         dynamics = Dynamics(self)
         self.refused_modes = dynamics.cause
         for result in dynamics.spectra(spectra):
@@ -218,6 +227,7 @@ class Run:
         result.work = self.ledger.since(self.counted) | result.work
         self.counted = self.ledger.snapshot()
         self.found[result.name] = result
+        self.ledger.watch.done += 1
 
     # ------------------------------------------------------------------ preparation
     def question(self, case: Case) -> Question:

@@ -40,12 +40,12 @@ def follow(run: "Run", cycle: Cycle) -> CycleResult:
         result.path += steps
         result.loops = loop + 1
         if before:
-            result.change = _change(before, steps)
+            result.change = change_between(before, steps)
             result.repeats = result.change <= REPEATED
         before = steps
         if result.repeats:
             break
-    _ranges(run, cycle, before, result)
+    set_ranges(run, cycle, before, result)
     return result
 
 
@@ -55,7 +55,7 @@ def _one(
     return run.go_on(case, replace(run.question(case), name=name), origin)
 
 
-def _change(before: list[CaseResult], after: list[CaseResult]) -> float:
+def change_between(before: list[CaseResult], after: list[CaseResult]) -> float:
     """Largest change of a support load or of a displacement, each of the largest."""
     loads = _relative(_loads(before), _loads(after), 1.0)
     return max(loads, _relative(_moves(before), _moves(after), 1e-9))
@@ -74,7 +74,7 @@ def _relative(old: F8, new: F8, least: float) -> float:
     return float(np.abs(new - old).max(initial=0.0)) / size
 
 
-def _ranges(run: "Run", cycle: Cycle, steps: list[CaseResult], result: CycleResult) -> None:
+def set_ranges(run: "Run", cycle: Cycle, steps: list[CaseResult], result: CycleResult) -> None:
     """Largest less smallest value over the last loop, and between the cases on their own."""
     result.supports = _range([card_forces(c) for c in steps])
     result.elements = _range([c.state.end_force for c in steps if c.state is not None])

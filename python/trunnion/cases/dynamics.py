@@ -1,7 +1,7 @@
 """MODES and response spectra of a run: the frozen structure, its masses, and who asks for what."""
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
@@ -10,12 +10,25 @@ from trunnion.cases.spectrumcase import SpectrumPass
 from trunnion.loads.masses import model_masses
 from trunnion.model import Case, Modes
 from trunnion.solver.locked import frozen_system
-from trunnion.solver.modal import modes_of, with_friction
+from trunnion.solver.mesh import Mesh
+from trunnion.solver.modal import modes_of, pencil_of, with_friction
 from trunnion.solver.quantities import Point
 from trunnion.solver.structure import Structure
 
 if TYPE_CHECKING:
     from trunnion.cases.analysis import Run
+
+
+class Known(Protocol):
+    """Modes that were found before: the cut-off of their mesh, and themselves on it."""
+
+    @property
+    def cut(self) -> float:
+        """Cut-off of the mesh [Hz]."""
+
+    def modes(self, mesh: Mesh) -> ModeSet:
+        """Give the modes on a mesh."""
+
 
 DEFAULT = Modes(33, fmax=33.0)  # what a spectrum case takes where the deck asks for no modes
 
@@ -24,9 +37,13 @@ class Dynamics:
     """Modes about the frozen state of one case, snubbers locked, and the spectra on them.
 
     `cause` tells why there are none: the case they stand on has no answer.
+
+    Parameters
+    ----------
+    known : gives modes that were found before, on their K and M; None: they are searched for.
     """
 
-    def __init__(self, run: "Run") -> None:
+    def __init__(self, run: "Run", known: "Known | None" = None) -> None:
         self.run = run
         self.card = run.model.modal or DEFAULT
         self.cause: str | None = None
@@ -40,8 +57,13 @@ class Dynamics:
         frozen = self.frozen
         if self.card.friction > 0.0:
             frozen, keep = with_friction(system, state, frozen, keep, self.card.friction)
-        masses = model_masses(run.model, system)
-        self.modes, self.pencil = modes_of(frozen, masses, self.card, run.ledger, structure, keep)
+        masses, ledger = model_masses(run.model, system), run.ledger
+        if known is None:
+            self.modes, self.pencil = modes_of(frozen, masses, self.card, ledger, structure, keep)
+        else:
+            cut = known.cut
+            mesh, pencil = pencil_of(frozen, masses, self.card, ledger, cut, structure, keep)
+            self.modes, self.pencil = known.modes(mesh), pencil
 
     def _about(self) -> tuple[Structure, State | None]:
         """The structure and the state that is frozen; without ABOUT= the pipe at rest."""

@@ -92,12 +92,13 @@ class LockedPass:
         for case, question, ready in zip(cases, questions, prepared, strict=True):
             result, _ = answer(structure, question, at_rest(structure), ready)
             if result.state is not None:
-                result.frozen_check = self._breaks(about, keep, case, result)
+                result.frozen_check = self.breaks(about, keep, case, result)
             yield result
 
-    def _breaks(
+    def breaks(
         self, about: CaseResult, keep: np.ndarray, case: Case, result: CaseResult
     ) -> tuple[FrozenBreak, ...]:
+        """What a locked case does to the frozen contact state that it stands on."""
         assert about.state is not None
         assert about.loads is not None
         assert result.state is not None
@@ -132,21 +133,33 @@ class LockedPass:
         own, _ = self._key(about)
         if (self.hot(case) or own) != own:
             return self._refused(case, about, f"E=HOT with NONLINEAR, but {about.name} is not hot")
-        structure = self.run.structure_of(own, snubbed=True)
+        structure, question, start = self.together(case, about)
+        total, _ = answer(structure, question, start)
+        if total.state is None:
+            return self._refused(case, about, total.cause or "")
+        result = self.increment(case, about, total, start)
+        result.warnings += total.warnings
+        return result
+
+    def together(self, case: Case, about: CaseResult) -> tuple[Structure, Question, Origin]:
+        """Both loads as one case, its structure, and where it starts."""
+        structure = self.run.structure_of(self._key(about)[0], snubbed=True)
         question = self.run.question_on(case, structure.system)
         origin = self.run.ended[about.name]
         assert origin.loads is not None
         both = _together(origin.loads, origin.lock, question.loads)
         loads, start = go_on(self.run.system, structure, origin, both, locked=True)
-        whole = replace(question, name=f"{about.name} + {case.name}", loads=loads)
-        total, _ = answer(structure, whole, start)
-        if total.state is None:
-            return self._refused(case, about, total.cause or "")
+        return structure, replace(question, name=f"{about.name} + {case.name}", loads=loads), start
+
+    def increment(
+        self, case: Case, about: CaseResult, total: CaseResult, start: Origin
+    ) -> CaseResult:
+        """What both loads together do, less the operating case."""
         before = _padded(about, total, start)
         comb = Comb(case.name, ("-", ("case", total.name), ("case", before.name)), "")
         result = combine(comb, {total.name: total, before.name: before})
         result.text = f"{case_text(case)} ABOUT={about.name} NONLINEAR"
-        result.warnings += total.warnings
+        result.total = total
         return result
 
 

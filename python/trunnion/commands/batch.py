@@ -1,18 +1,26 @@
 """trunnion batch: many decks, in processes or on a cluster."""
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from trunnion.commands.shared import (
     FOLDER,
+    FOREIGN,
     INTERRUPTED,
     JOBS,
     PERMISSIVE,
     InputError,
+    beside,
+    further_options,
+    refuse_missing,
     refuse_unwritable,
     say,
 )
+
+if TYPE_CHECKING:
+    from trunnion.formats.options import Options
 
 
 @click.command()
@@ -20,7 +28,8 @@ from trunnion.commands.shared import (
 @FOLDER
 @JOBS
 @PERMISSIVE
-@click.option("--h5", is_flag=True, help="Write <stem>.h5 too.")
+@beside
+@further_options
 @click.option("--redo", is_flag=True, help="Solve finished decks again.")
 @click.option("--scheduler", metavar="ADDRESS", help="Solve on the Dask cluster of this scheduler.")
 def batch(
@@ -28,9 +37,10 @@ def batch(
     folder: Path,
     jobs: int | None,
     permissive: bool,
-    h5: bool,
+    options: "Options | None",
     redo: bool,
     scheduler: str | None,
+    **further: bool,
 ) -> int:
     """Solve many DECKS; finished ones are skipped, and a killed run resumes.
 
@@ -46,7 +56,13 @@ def batch(
     if scheduler and jobs:
         raise InputError("-j is for processes of this machine, the cluster has its own")
     refuse_unwritable(folder)
-    _need_extras(h5, scheduler)
+    also = [name for name, wanted in further.items() if wanted]
+    refuse_missing(also)
+    _need_dask(scheduler)
+    if (options is not None or permissive) and not any(d.suffix.lower() in FOREIGN for d in decks):
+        given = [] if options is None else options.given()
+        words = " and ".join([*given, *["--permissive"] * permissive])
+        raise InputError(f"{words} is for files of other programs ({' '.join(FOREIGN)})")
     with progress("decks", len(decks)) as counter:
 
         def told(entry: Entry) -> None:
@@ -57,8 +73,9 @@ def batch(
                 decks,
                 folder,
                 jobs=jobs,
-                h5=h5,
+                also=also,
                 permissive=permissive,
+                options=options,
                 scheduler=scheduler,
                 redo=redo,
                 told=told,
@@ -72,11 +89,9 @@ def batch(
     return done.code
 
 
-def _need_extras(h5: bool, scheduler: str | None) -> None:
-    """Refuse before any work what an optional package would be needed for."""
+def _need_dask(scheduler: str | None) -> None:
+    """Refuse before any work a cluster that could not be reached."""
     from importlib.util import find_spec
 
-    if h5 and find_spec("h5py") is None:
-        raise InputError("--h5 needs the package h5py: pip install 'trunnion[hdf5]'")
     if scheduler and find_spec("distributed") is None:
         raise InputError("--scheduler needs the package distributed: pip install 'trunnion[dask]'")

@@ -21,17 +21,19 @@ def check(deck: Path, permissive: bool, options: "Options | None") -> int:
     from trunnion.cases.default_cases import may_be_free, with_cases
     from trunnion.loads import case_loads, load_sets
     from trunnion.model import Case
+    from trunnion.report.progress import shown
     from trunnion.system import build_system
 
-    read = read_model(deck, permissive=permissive, options=options)
-    model = with_cases(read)
-    system = build_system(model)
-    sets = load_sets(model, system)
-    for case in model.cases:
-        if isinstance(case, Case):
-            case_loads(model, system, case, sets)
-    if not may_be_free(read):
-        _refuse_mechanisms(system)
+    with shown(f"checking {deck.name}"):
+        read = read_model(deck, permissive=permissive, options=options)
+        model = with_cases(read)
+        system = build_system(model)
+        sets = load_sets(model, system)
+        for case in model.cases:
+            if isinstance(case, Case):
+                case_loads(model, system, case, sets)
+        if not may_be_free(read):
+            _refuse_mechanisms(system)
     counts = (
         (len(system.labels), "nodes"),
         (len(system.parts), "elements"),

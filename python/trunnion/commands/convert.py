@@ -26,6 +26,7 @@ def convert(source: Path, deck: Path, permissive: bool, options: "Options | None
     from trunnion.formats.options import NONE
     from trunnion.report.atomic import write_files
     from trunnion.report.origin import origin_lines
+    from trunnion.report.progress import shown
 
     if deck.exists() and source.exists() and deck.samefile(source):
         raise InputError(f"{deck}: the deck would overwrite its own source")
@@ -34,8 +35,9 @@ def convert(source: Path, deck: Path, permissive: bool, options: "Options | None
     if deck.is_dir():
         raise InputError(f"{deck} is a folder")
     refuse_unwritable(deck.parent)
-    imported = read_any(source, permissive=permissive, options=options or NONE)
-    write_files({deck: imported.deck().encode()})
+    with shown(f"reading {source.name}"):
+        imported = read_any(source, permissive=permissive, options=options or NONE)
+        write_files({deck: imported.deck().encode()})
     say("\n".join(origin_lines(imported.origin)))
     say(f"wrote {deck}")
     return SOLVED

@@ -43,7 +43,10 @@ def diff(
         return _driver(files, tolerance)
     if len(files) != 2:
         raise InputError(f"diff takes two files, not {len(files)}")
-    changes = compare(*files, tolerance)
+    from trunnion.report.progress import shown
+
+    with shown(f"comparing {files[0].name} and {files[1].name}"):
+        changes = compare(*files, tolerance)
     for change in changes[:most]:
         say(str(change))
     if most is not None and len(changes) > most:

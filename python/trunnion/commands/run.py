@@ -16,7 +16,9 @@ from trunnion.commands.shared import (
     beside,
     further_options,
     read_model,
+    refuse_missing,
     refuse_unwritable,
+    room,
     say,
     solve_model,
 )
@@ -49,21 +51,23 @@ def run(
     **further: bool,
 ) -> int:
     """Solve DECK; write <stem>.out and <stem>.json."""
+    from trunnion.report.progress import shown
     from trunnion.report.screen import screen
 
     also = [name for name, wanted in further.items() if wanted]
     _check_names(deck, also)
     refuse_unwritable(folder)
     start = perf_counter()
-    model = read_model(deck, permissive=permissive, options=options)
-    read = perf_counter()
-    results = solve_model(model, spread)
-    solved = perf_counter()
-    from trunnion.report import write_reports
+    with shown(f"reading {deck.name}") as watch:
+        model = read_model(deck, permissive=permissive, options=options)
+        read = perf_counter()
+        results = solve_model(model, spread, watch)
+        solved = perf_counter()
+        from trunnion.report import write_reports
 
-    files = write_reports(results, model, folder, deck.stem, also=also)
+        files = write_reports(results, model, folder, deck.stem, also=also, watch=watch)
     written = perf_counter()
-    good, text = screen(results, model)
+    good, text = screen(results, model, room())
     say(text)
     say("wrote " + "  ".join(_shown(files, folder)))
     if timings:
@@ -81,10 +85,8 @@ def _shown(files: list[Path], folder: Path) -> list[str]:
 
 def _check_names(deck: Path, also: list[str]) -> None:
     """Refuse before any work what would overwrite the deck or could not be written."""
-    from trunnion.report.outputs import missing
+    from trunnion.report.outputs import SUFFIXES
 
-    if deck.suffix.lower() in (".out", ".json", ".h5", ".xlsx", ".csv", ".html", ".vtu", ".pvd"):
+    if deck.suffix.lower() in SUFFIXES:
         raise InputError(f"{deck}: a deck must not be called *{deck.suffix}, as the reports are")
-    lacking = [said for said in map(missing, also) if said]
-    if lacking:
-        raise InputError("\n".join(lacking))
+    refuse_missing(also)

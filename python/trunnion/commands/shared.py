@@ -2,7 +2,7 @@
 
 import os
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import wraps
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,6 +13,8 @@ if TYPE_CHECKING:
     from trunnion.arrays import Results
     from trunnion.formats.options import Options
     from trunnion.model import Model
+    from trunnion.report.screen import Room
+    from trunnion.watch import Watch
 
 SOLVED, FAILED, BAD_INPUT, INTERNAL, INTERRUPTED, TERMINATED = 0, 1, 2, 3, 130, 143
 
@@ -106,12 +108,33 @@ def read_model(
     return read(deck)
 
 
-def solve_model(model: "Model", spread: int = 0) -> "Results":
+def solve_model(model: "Model", spread: int = 0, watch: "Watch | None" = None) -> "Results":
     """Solve every case; with `spread` look for other answers from so many starts."""
     import trunnion
 
-    results: Results = trunnion.solve(model, spread=spread) if spread else trunnion.solve(model)
+    asked: dict[str, Any] = {"spread": spread, "watch": watch}
+    results: Results = trunnion.solve(model, **{key: x for key, x in asked.items() if x})
     return results
+
+
+def room() -> "Room":
+    """What the summary may take: the terminal, or a page without end where it is piped."""
+    from trunnion.report.screen import PIPE, Room
+
+    if not sys.stdout.isatty():
+        return PIPE
+    from shutil import get_terminal_size
+
+    return Room(*get_terminal_size())
+
+
+def refuse_missing(also: Sequence[str]) -> None:
+    """Refuse before any work formats whose packages are not installed."""
+    from trunnion.report.outputs import missing
+
+    lacking = [said for said in map(missing, also) if said]
+    if lacking:
+        raise InputError("\n".join(lacking))
 
 
 def refuse_unwritable(folder: Path) -> None:

@@ -1,6 +1,7 @@
 """trunnion study: variants of one deck on one symbolic analysis."""
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
@@ -11,10 +12,14 @@ from trunnion.commands.shared import (
     JOBS,
     PERMISSIVE,
     SOLVED,
+    beside,
     read_model,
     refuse_unwritable,
     say,
 )
+
+if TYPE_CHECKING:
+    from trunnion.formats.options import Options
 
 
 @click.command()
@@ -29,6 +34,7 @@ from trunnion.commands.shared import (
 @FOLDER
 @JOBS
 @PERMISSIVE
+@beside
 @click.option("--warm", is_flag=True, help="Start variants from the answer of the deck as it is.")
 def study(
     deck: Path,
@@ -37,6 +43,7 @@ def study(
     folder: Path,
     jobs: int | None,
     permissive: bool,
+    options: "Options | None",
     warm: bool,
 ) -> int:
     """Solve variants of DECK; write <stem>-study.out, .json, .csv and <stem>-variants.csv.
@@ -48,12 +55,13 @@ def study(
     from trunnion.many.axes import count, read_axes
     from trunnion.many.study import study as solve_study
     from trunnion.report.atomic import write_files
-    from trunnion.report.progress import progress
+    from trunnion.report.progress import progress, shown
     from trunnion.report.study import study_report, study_screen
     from trunnion.report.study_data import envelope_csv, study_json, variants_csv
 
     refuse_unwritable(folder)
-    model = read_model(deck, permissive=permissive)
+    with shown(f"reading {deck.name}"):
+        model = read_model(deck, permissive=permissive, options=options)
     total = count(read_axes(with_cases(model), vary))
     with progress("variants", total) as counter:
         done = solve_study(

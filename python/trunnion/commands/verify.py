@@ -18,6 +18,9 @@ from trunnion.commands.shared import (
 if TYPE_CHECKING:
     from trunnion.formats.options import Options
     from trunnion.model import Model
+    from trunnion.watch import Watch
+
+WORDS = {True: "holds", False: "FAILS", None: "not judged"}
 
 
 @click.command()
@@ -40,10 +43,17 @@ def verify(
     Exit 0: it agrees.  1: it differs.  2: bad input, as a deck that was changed since.
     """
     from trunnion.compare.stored import read_report
+    from trunnion.report.progress import shown
 
-    report = read_report(results)
-    model = _model(report, results, deck, options)
-    return _judge(report, model) if certificate else _repeat(report, model, allow)
+    with shown(f"reading {results.name}") as watch:
+        report = read_report(results)
+        model = _model(report, results, deck, options)
+        if certificate:
+            code, said = _judge(report, model, watch)
+        else:
+            code, said = _repeat(report, model, allow, watch)
+    say(said)
+    return code
 
 
 def _model(
@@ -70,7 +80,10 @@ def _model(
     return model
 
 
-def _repeat(report: dict[str, Any], model: "Model", allow: float) -> int:
+def _repeat(
+    report: dict[str, Any], model: "Model", allow: float, watch: "Watch | None"
+) -> tuple[int, str]:
+    """Solve the deck again and list what differs."""
     import json
     from importlib.metadata import version
 
@@ -78,25 +91,23 @@ def _repeat(report: dict[str, Any], model: "Model", allow: float) -> int:
     from trunnion.report.json import json_report
 
     made, own = report["manifest"]["version"], version("trunnion")
-    if made != own:
-        say(f"made by version {made}, run again by {own}")
-    again = json.loads(json_report(solve_model(model), model))
+    lines = [] if made == own else [f"made by version {made}, run again by {own}"]
+    again = json.loads(json_report(solve_model(model, watch=watch), model))
     changes = diff_results(report, again, allow)
-    for change in changes:
-        say(str(change))
+    lines += map(str, changes)
     if not changes:
-        say(f"{len(report['cases'])} cases agree with a new run of {report['manifest']['deck']}")
-    return FAILED if changes else SOLVED
+        n, name = len(report["cases"]), report["manifest"]["deck"]
+        lines.append(f"{n} case{'s agree' if n != 1 else ' agrees'} with a new run of {name}")
+    return FAILED if changes else SOLVED, "\n".join(lines)
 
 
-def _judge(report: dict[str, Any], model: "Model") -> int:
+def _judge(report: dict[str, Any], model: "Model", watch: "Watch | None") -> tuple[int, str]:
+    """Judge the stored numbers alone."""
     from trunnion.compare.rejudge import rejudge
 
-    verdicts = rejudge(report, model)
-    words = {True: "holds", False: "FAILS", None: "not judged"}
-    for verdict in verdicts:
-        say(f"{verdict.case}: {words[verdict.passed]}: {verdict.text}")
+    verdicts = rejudge(report, model, watch)
+    said = "\n".join(f"{v.case}: {WORDS[v.passed]}: {v.text}" for v in verdicts)
     failed = any(verdict.passed is False for verdict in verdicts)
     if not failed and not any(verdict.passed for verdict in verdicts):
         raise InputError("no case could be judged")
-    return FAILED if failed else SOLVED
+    return FAILED if failed else SOLVED, said

@@ -1,214 +1,182 @@
 """Stored numbers judged again: structure and loads from the deck, every number from the file.
 
-The certificate of a solved case is computed from the numbers read; a combination is formed again
-from its cases.  What else the file says of a case (supports' sums, local forces, stresses, balance)
-is written again from these numbers and must be the same to the last digit.  The next correction of
-the iteration, which only a solver knows, is taken from the file.
+The certificate of a solved case is computed from the numbers read; so are those of the steps of a
+cycle and of both loads together of a NONLINEAR increment, which is formed again from them, as a
+combination is from its cases.  What else the file says (supports' sums, local forces, stresses,
+balance, ranges, the envelope) is written again from these numbers and must be the same to the
+last digit.  The next correction of the iteration, which only a solver knows, is taken from the
+file.
 """
 
-import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
-from trunnion.arrays import (
-    BOTH,
-    ENGAGED,
-    I4,
-    OPEN,
-    SLIP,
-    STICK,
-    CaseResult,
-    Results,
-    State,
-    System,
-)
-from trunnion.certificate import certify
-from trunnion.frozen import frozen
+from trunnion.arrays import CaseResult, FrozenBreak, HangerChoice
+from trunnion.compare.judgement import Verdict, judged, start_of
+from trunnion.compare.written import changed
 from trunnion.model import Case, Comb, Model
 from trunnion.results.combine import combine, parents
+from trunnion.watch import Watch
 
 if TYPE_CHECKING:
     from trunnion.cases.analysis import Run
 
-MODES = {"open": OPEN, "engaged": ENGAGED, "stick": STICK, "slip": SLIP}
-WRITTEN = ("loads", "reactions", "nodes", "nodes_low", "supports", "elements", "stresses")
+Stored = Mapping[str, Any]
+SHAPE = (KeyError, IndexError, TypeError, ValueError, AttributeError)  # tables of another deck
 
 
-@frozen
-class Verdict:
-    """One case: `passed` is None where stored numbers alone cannot be judged; `text` says why."""
-
-    case: str
-    passed: bool | None
-    text: str
-
-
-def rejudge(report: Mapping[str, Any], model: Model) -> list[Verdict]:
-    """Judge every case of a stored result; `model` is that of its deck."""
+def rejudge(report: Stored, model: Model, watch: Watch | None = None) -> list[Verdict]:
+    """Judge every case, cycle and table of a stored result; `model` is that of its deck."""
     from trunnion.cases.analysis import Run
     from trunnion.cases.casetext import in_order
     from trunnion.cases.default_cases import with_cases
 
+    choices: tuple[HangerChoice, ...] = ()
     if any(s.design is not None for s in model.supports):
         from trunnion.cases.hangers import designed
 
-        model = designed(model)[0]
+        model, choices = designed(model)
     whole = with_cases(model)
     names = [case.name for case in whole.cases]
     if list(report["cases"]) != names:
         said = f"the deck has {' '.join(names)}, the file {' '.join(report['cases'])}"
         return [Verdict("cases", False, said)]
-    run = Run(whole, {})
-    verdicts: dict[str, Verdict] = {}
-    for case in in_order(whole.cases):
-        verdicts[case.name] = _guarded(run, case, report["cases"][case.name])
-    return [verdicts[name] for name in names]
+    if watch is not None:
+        watch.turn("judging")
+    run = Run(whole, {}, watch=watch)
+    cases = in_order(whole.cases)
+    found: dict[str, Verdict] = {}
+    for case in cases:
+        if isinstance(case, Case) and not case.spectrum:
+            found[case.name] = _guarded(run, case, report["cases"][case.name])
+    behind: list[Verdict] = []
+    spectra = [case for case in cases if isinstance(case, Case) and case.spectrum]
+    if whole.modal is not None or spectra:
+        from trunnion.compare.rejudge_modes import judge_dynamics
+
+        modes, answers = judge_dynamics(run, report, spectra)
+        found |= answers
+        behind.append(modes)
+    for case in cases:
+        if isinstance(case, Comb):
+            found[case.name] = _guarded(run, case, report["cases"][case.name])
+    if whole.cycles:
+        from trunnion.compare.rejudge_cycles import judge_cycle
+
+        behind = [judge_cycle(run, c, report) for c in whole.cycles] + behind
+    return [found[name] for name in names] + behind + _tables(run, report, choices)
 
 
-def _guarded(run: "Run", case: Case | Comb, stored: Mapping[str, Any]) -> Verdict:
+def _guarded(run: "Run", case: Case | Comb, stored: Stored) -> Verdict:
     """Judge one case; a file whose tables do not fit the deck fails."""
+    run.ledger.watch.begin(case.name)
     if not stored["converged"]:
+        run.found[case.name] = _nothing(run, case)
         return Verdict(case.name, None, f"no numbers: {stored.get('cause')}")
-    if isinstance(case, Case) and (case.spectrum or case.nonlinear):
-        what = "a spectrum" if case.spectrum else "a difference of two answers"
-        return Verdict(case.name, None, f"{what}: run the deck again to confirm it")
     missing = [name for name in _parents(case) if name not in run.found]
     if missing:
         return Verdict(case.name, None, f"it stands on {' '.join(missing)}, not judged")
+    if isinstance(case, Comb):
+        judge: Callable[[], Verdict] = lambda: _comb(run, case, stored)  # noqa: E731
+    elif case.nonlinear:
+        judge = lambda: _nonlinear(run, case, stored)  # noqa: E731
+    else:
+        judge = lambda: _case(run, case, stored)  # noqa: E731
     try:
-        return _comb(run, case, stored) if isinstance(case, Comb) else _case(run, case, stored)
-    except (KeyError, IndexError, TypeError, ValueError, AttributeError) as error:
+        return judge()
+    except SHAPE as error:
         return Verdict(case.name, False, f"its tables do not fit the deck: {error!r}")
+
+
+def _nothing(run: "Run", case: Case | Comb) -> CaseResult:
+    """A case without numbers, as the cases that stand on it find it."""
+    return CaseResult(case.name, "case", "", run.system, None, None, False, cause="no numbers")
 
 
 def _parents(case: Case | Comb) -> list[str]:
     if isinstance(case, Comb):
         return list(dict.fromkeys(parents(case.expression)))
-    return [name for name in (case.about, case.on) if name]
+    return [name for name in (case.about, case.on, case.start) if name]
 
 
-def _case(run: "Run", case: Case, stored: Mapping[str, Any]) -> Verdict:
-    """Compute the certificate of a solved case."""
-    if case.about or case.on:
+def _case(run: "Run", case: Case, stored: Stored) -> Verdict:
+    """Compute the certificate of a solved case, free or on the frozen contacts of another."""
+    name = case.about or case.on
+    breaks: tuple[FrozenBreak, ...] = ()
+    if name:
         from trunnion.cases.occasional import LockedPass
+        from trunnion.solver.answer import at_rest
 
-        locked = LockedPass(run)
-        about = run.found[case.about or case.on or ""]
-        structure, _ = locked.structure(
+        locked, about = LockedPass(run), run.found[name]
+        structure, keep = locked.structure(
             about, snubbers=case.about is not None, which=locked.hot(case)
         )
+        question = run.question_on(case, structure.system)
+        it = judged(structure, question, at_rest(structure), stored)
+        breaks = locked.breaks(about, keep, case, it.result)
     else:
         structure = run.structure(case)
-    system = structure.system
-    loads = run.question_on(case, system).loads
-    if case.start and case.snubbers == "LOCKED" and len(run.system.snubbers.k):
-        return Verdict(case.name, None, "snubbers locked from another case: run the deck again")
-    state = stored_state(stored, system)
-    claimed = stored["certificate"]
-    found = certify(
-        system,
-        loads,
-        state,
-        correction_u=_number(claimed["correction_u"]),
-        correction_r=_number(claimed["correction_r"]),
-    )
-    result = CaseResult(
-        case.name, "case", stored["text"], system, loads, state, True, certificate=found
-    )
+        question = run.question_on(case, structure.system)
+        origin = run.ended[case.start] if case.start else None
+        it = judged(structure, *start_of(run, case, structure, question, origin), stored)
+        run.ended[case.name] = it.end
+    it.result.frozen_check = breaks
+    run.found[case.name] = it.result
+    fault = it.fault or changed(it.result, stored)
+    return Verdict(case.name, not fault, fault or it.text)
+
+
+def _nonlinear(run: "Run", case: Case, stored: Stored) -> Verdict:
+    """Judge both loads together, and form the increment again."""
+    from trunnion.cases.occasional import LockedPass
+
+    about = run.found[case.about or ""]
+    if "total" not in stored:
+        return Verdict(case.name, None, "the file has no total of both loads: run the deck again")
+    locked = LockedPass(run)
+    structure, question, start = locked.together(case, about)
+    it = judged(structure, question, start, stored["total"])
+    result = locked.increment(case, about, it.result, start)
     run.found[case.name] = result
-    text = f"worst {found.worst:.1e}, {found.where}"
-    if not found.passed:
-        return Verdict(case.name, False, text)
-    changed = _changed(result, stored)
-    return Verdict(case.name, not changed, changed or text)
+    fault = it.fault or changed(result, stored) or changed(it.result, stored["total"], STATE)
+    return Verdict(case.name, not fault, fault or f"both loads together: {it.text}")
 
 
-def _comb(run: "Run", case: Comb, stored: Mapping[str, Any]) -> Verdict:
+STATE = ("nodes_low", "supports", "elements")  # of states inside; their nodes lack bends' middles
+
+
+def _comb(run: "Run", case: Comb, stored: Stored) -> Verdict:
     """Form a combination again from its cases."""
     result = combine(case, run.found)
     run.found[case.name] = result
-    changed = _changed(result, stored)
-    return Verdict(case.name, not changed, changed or "the same from its cases")
+    fault = changed(result, stored)
+    return Verdict(case.name, not fault, fault or "the same from its cases")
 
 
-def _changed(result: CaseResult, stored: Mapping[str, Any]) -> str:
-    """Say what the file holds that these numbers do not give; nothing if all is the same."""
-    from trunnion.report.json import json_report
+def _tables(run: "Run", report: Stored, choices: tuple[HangerChoice, ...]) -> list[Verdict]:
+    """Judge what stands beside the cases: the envelope, hangers that were selected, winds."""
+    import json
 
-    again = json.loads(json_report(Results("", {result.name: result})))["cases"][result.name]
-    for table in WRITTEN:
-        place = _first(again.get(table), stored.get(table), table)
-        if place:
-            return f"{place} is not what the other numbers give"
-    return ""
+    from trunnion.arrays import Results
+    from trunnion.compare.written import first
+    from trunnion.report.hangers import selection_entries
+    from trunnion.report.json_runs import envelope_entries
+    from trunnion.report.json_winds import wind_entries
 
-
-def _first(a: Any, b: Any, place: str) -> str:
-    """Name the first place at which two values of JSON differ."""
-    if a == b:
-        return ""
-    if isinstance(a, dict) and isinstance(b, dict):
-        pairs: Iterator[tuple[object, Any, Any]] = (
-            (key, a.get(key), b.get(key)) for key in dict.fromkeys([*a, *b])
-        )
-    elif isinstance(a, list) and isinstance(b, list) and len(a) == len(b):
-        ids = [x.get("id", i) if isinstance(x, dict) else i for i, x in enumerate(a)]
-        pairs = zip(ids, a, b, strict=True)
+    again: dict[str, str] = {}
+    verdicts = []
+    missing = [name for name in report["cases"] if name not in run.found]
+    if missing:
+        verdicts.append(Verdict("envelope", None, f"it holds {' '.join(missing)}, not judged"))
     else:
-        return place
-    found = (_first(x, y, f"{place} {key}") for key, x, y in pairs)
-    return next((said for said in found if said), place)
-
-
-def _number(value: float | None) -> float:
-    return np.inf if value is None else float(value)
-
-
-def stored_state(case: Mapping[str, Any], system: System) -> State:
-    """Read the numbers of a case back; `system` is that of the case.
-
-    Raises
-    ------
-    KeyError, IndexError, TypeError, ValueError : the tables are not those of this system.
-    """
-    zero = [0.0] * 6
-    low = case.get("nodes_low", {})
-    contacts = [c for s in case["supports"] for c in s["contacts"]]
-    sliders = [(s["contacts"][x["contacts"][0]], x) for s in case["supports"] for x in s["sliders"]]
-    # the file has them by card, the system in its own order
-    contacts = _ordered(contacts, system.contacts.card)
-    sliders = _ordered(sliders, system.sliders.card)
-    side = [BOTH if c["side"] == 0 and c["state"] != "open" else c["side"] for c in contacts]
-    ends = [[e["force_from"], e["force_to"]] for e in case["elements"]]
-    if len(ends) != len(system.parts):
-        raise ValueError(f"{len(ends)} elements, the deck has {len(system.parts)}")
-    return State(
-        u=np.array([case["nodes"][label] for label in system.labels], np.float64),
-        u_low=np.array([low.get(label, zero) for label in system.labels], np.float64),
-        end_force=np.array(ends, np.float64).reshape(-1, 2, 6),
-        side=np.array(side, np.int32),
-        reaction=_rows([c["vector"] for c in contacts]),
-        friction=_rows([c["friction"] for c, _ in sliders]),
-        mode=np.array([MODES[x["state"]] for _, x in sliders], np.int32),
-        normal=np.array([c["normal"] for c, _ in sliders], np.float64),
-        slide=_rows([c["slide"] for c, _ in sliders]),
-        datum=_rows([x["datum"] for _, x in sliders]),
-        datum_end=_rows([x["datum_end"] for _, x in sliders]),
-    )
-
-
-def _rows(rows: list[Any]) -> np.ndarray:
-    return np.array(rows, np.float64).reshape(-1, 3)
-
-
-def _ordered(entries: list[Any], card: I4) -> list[Any]:
-    """Put entries that stand by card into the order of the system."""
-    order = np.argsort(card, kind="stable")
-    if len(entries) != len(order):
-        raise ValueError(f"{len(entries)} contacts or sliders, the deck has {len(order)}")
-    placed: list[Any] = [None] * len(entries)
-    for entry, i in zip(entries, order.tolist(), strict=True):
-        placed[i] = entry
-    return placed
+        ordered = {name: run.found[name] for name in report["cases"]}
+        again["envelope"] = envelope_entries(Results("", ordered, base=run.system))
+    if choices:
+        again["hangers"] = selection_entries(choices)
+    if run.model.winds:
+        again["winds"] = wind_entries(run.model, run.system)
+    for name, text in again.items():
+        place = first(json.loads(text), report.get(name), name)
+        fault = f"{place} is not what the other numbers give" if place else ""
+        verdicts.append(Verdict(name, not fault, fault or "the same from its numbers"))
+    return verdicts

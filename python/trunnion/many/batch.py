@@ -7,6 +7,7 @@ from contextlib import closing, contextmanager
 from dataclasses import replace
 from pathlib import Path
 from time import monotonic, sleep
+from typing import TYPE_CHECKING
 
 from trunnion.errors import BatchError
 from trunnion.frozen import frozen
@@ -14,6 +15,10 @@ from trunnion.many.forked import run_forked
 from trunnion.many.onedeck import solve_deck
 from trunnion.many.records import FOLDER, INTERNAL, Entry, finished, settings_of
 from trunnion.report.atomic import write_files
+from trunnion.report.outputs import SUFFIXES
+
+if TYPE_CHECKING:
+    from trunnion.formats.options import Options
 
 SUMMARY = "batch-summary"
 PATIENCE = 5.0  # for the children of a killed run to let go of the folder [s]
@@ -42,8 +47,9 @@ def batch(
     folder: str | os.PathLike[str] = ".",
     *,
     jobs: int | None = None,
-    h5: bool = False,
+    also: Sequence[str] = (),
     permissive: bool = False,
+    options: "Options | None" = None,
     scheduler: str | None = None,
     redo: bool = False,
     told: Told | None = None,
@@ -55,7 +61,9 @@ def batch(
     ----------
     folder : where <stem>.out, <stem>.json and the summary go.
     jobs : processes at a time; None is one a core.
+    also : further reports of every deck, names of `report.outputs.OUTPUTS`: html, xlsx, csv ...
     permissive : leave out what the model cannot represent of files of other programs.
+    options : side table, tolerance and anchors for the files whose format has a use for them.
     scheduler : address of a Dask scheduler whose workers solve instead of own processes.
     redo : solve finished decks again.
     told : called with every entry as it comes; tick : called now and then.
@@ -67,7 +75,7 @@ def batch(
     """
     paths, place = [Path(deck) for deck in decks], Path(folder)
     _refuse_names(paths)
-    settings = settings_of(h5=h5, permissive=permissive)
+    settings = settings_of(also=also, permissive=permissive, options=options)
     with _alone(place):
         _sweep(place, paths)
         found: dict[str, Entry] = {}
@@ -138,7 +146,7 @@ def _refuse_names(decks: Sequence[Path]) -> None:
     by_stem: dict[str, list[Path]] = {}
     for deck in decks:
         by_stem.setdefault(deck.stem, []).append(deck)
-        if deck.suffix.lower() in (".out", ".json", ".h5", ".csv"):
+        if deck.suffix.lower() in SUFFIXES:
             problems.append(f"{deck}: a deck must not be called *{deck.suffix}, as the reports are")
     for stem, same in by_stem.items():
         if len(same) > 1:
@@ -172,11 +180,15 @@ def _alone(folder: Path) -> Iterator[None]:
 
 def _sweep(folder: Path, decks: Sequence[Path], pid: int | None = None) -> None:
     """Remove temporary files of processes that died: of one, or all of these decks."""
+    stems = {deck.stem for deck in decks}
+    left = f".*.{'*' if pid is None else pid}.tmp"
     for place in (folder, folder / FOLDER):
-        stems = {deck.stem for deck in decks}
-        for path in place.glob(f".*.{'*' if pid is None else pid}.tmp"):
+        for path in place.glob(left):
             if pid is not None or path.name[1:].split(".tmp")[0].rsplit(".", 2)[0] in stems:
                 path.unlink(missing_ok=True)
+    for path in folder.glob(f"*_*/{left}"):  # reports of many files have a folder of their own
+        if pid is not None or path.parent.name.rsplit("_", 1)[0] in stems:
+            path.unlink(missing_ok=True)
 
 
 def _write_summary(done: Batch, folder: Path) -> None:

@@ -67,7 +67,7 @@ def solve_there(
 
 def solve_remote(model: Model, deck: str, settings: Settings) -> tuple[Entry, dict[str, bytes]]:
     """Solve a model on a worker; what the program refuses is an entry without reports."""
-    theirs, ours = settings["version"], settings_of(h5=False)["version"]
+    theirs, ours = settings["version"], settings_of()["version"]
     if theirs != ours:
         raise RuntimeError(f"this worker has Trunnion {ours}, the batch is of {theirs}")
     try:

@@ -3,6 +3,7 @@
 import traceback
 from collections.abc import Mapping
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from trunnion.arrays import Results
 from trunnion.errors import DeckError, ModelError
@@ -19,6 +20,9 @@ from trunnion.many.records import (
 )
 from trunnion.model import Model, Place
 from trunnion.results.supports import cause_of, is_good
+
+if TYPE_CHECKING:
+    from trunnion.formats.options import Options
 
 Settings = Mapping[str, object]
 
@@ -37,24 +41,42 @@ def solve_deck(deck: Path, folder: Path, settings: Settings) -> Entry:
 
 
 def read_deck(deck: Path, settings: Settings) -> tuple[Model, tuple[str, ...]]:
-    """Read a deck, or a file of another program; give the files it is made of as well."""
-    from trunnion.formats import is_foreign, read_any
+    """Read a deck, or a file of another program; give the files it is made of as well.
+
+    Options beside the file go to the formats that have a use for them.
+    """
+    from trunnion.formats import FORMATS, is_foreign, read_any
+    from trunnion.formats.options import NONE
 
     if is_foreign(deck):
-        return read_any(deck, permissive=bool(settings["permissive"])).model, (str(deck),)
+        form = FORMATS.get(deck.suffix.lower())
+        options = _options(settings) if form is not None and form.options else NONE
+        sources = (str(deck),) if options.table is None else (str(deck), str(options.table))
+        found = read_any(deck, permissive=bool(settings["permissive"]), options=options)
+        return found.model, sources
     from trunnion.deck.reader import read_sources
 
     return read_sources(deck)
 
 
+def _options(settings: Settings) -> "Options":
+    from trunnion.formats.options import Options
+
+    given: Any = settings
+    table = given.get("table")
+    place = None if table is None else Path(table)
+    return Options(place, given.get("tolerance"), tuple(given.get("anchors", ())))
+
+
 def solve_model(model: Model, deck: Path, settings: Settings) -> tuple[Entry, dict[str, bytes]]:
-    """Solve a model; give its entry and its reports by their file names."""
+    """Solve a model; give its entry and its reports by their names in the folder."""
     import trunnion
     from trunnion.report import report_files
 
     results = trunnion.solve(model)
-    files = report_files(results, model, Path(), deck.stem, also=("h5",) if settings["h5"] else ())
-    reports = {path.name: content for path, content in files.items()}
+    also: Any = settings["also"]
+    files = report_files(results, model, Path(), deck.stem, also=also)
+    reports = {path.as_posix(): content for path, content in files.items()}
     return entry_of(results, deck, tuple(reports)), reports
 
 
@@ -69,7 +91,7 @@ def write_deck(
     from trunnion.report.atomic import write_files
 
     files = {folder / name: content for name, content in reports.items()}
-    own = {record_path(folder, entry.stem): record(entry, sources, settings, files)}
+    own = {record_path(folder, entry.stem): record(entry, sources, settings, reports)}
     write_files(files | own)
 
 

@@ -7,16 +7,19 @@ version and settings, and when the reports are still what they were.
 import hashlib
 import json
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from trunnion.frozen import frozen
 
+if TYPE_CHECKING:
+    from trunnion.formats.options import Options
+
 FOLDER = ".trunnion-batch"
-SCHEMA = 1
+SCHEMA = 2
 CERTIFIED, FAILED, BAD_DECK, INTERNAL = "certified", "failed", "bad deck", "internal error"
 CODES = {CERTIFIED: 0, FAILED: 1, BAD_DECK: 2, INTERNAL: 3}
 
@@ -38,7 +41,7 @@ class Entry:
 
     status : certified, failed (a case), bad deck (nothing written) or internal error.
     causes : of what is not certified, a sentence each.
-    files : names of the reports.
+    files : names of the reports; of those in a folder of their own with that folder.
     skipped, notes : taken from the record of an earlier run; what happened on the way.  They are
         of one run, so the summary file has neither.
     """
@@ -66,10 +69,16 @@ def summary_of(entry: Entry) -> dict[str, object]:
     return values
 
 
-def settings_of(*, h5: bool, permissive: bool = False) -> dict[str, object]:
-    """Everything but the deck on which the reports depend."""
-    own = {"schema": SCHEMA, "version": version("trunnion")}
-    return {**own, "h5": h5, "permissive": permissive}
+def settings_of(
+    *, also: Sequence[str] = (), permissive: bool = False, options: "Options | None" = None
+) -> dict[str, object]:
+    """Everything but the deck on which the reports depend, as JSON gives it back."""
+    own: dict[str, object] = {"schema": SCHEMA, "version": version("trunnion")}
+    own |= {"also": sorted(also), "permissive": permissive}
+    if options is not None:
+        table = None if options.table is None else str(options.table)
+        own |= {"table": table, "tolerance": options.tolerance, "anchors": list(options.anchors)}
+    return own
 
 
 def digest(content: bytes) -> str:
@@ -94,14 +103,14 @@ def record(
     entry: Entry,
     sources: Mapping[str, str],
     settings: Mapping[str, object],
-    files: Mapping[Path, bytes],
+    reports: Mapping[str, bytes],
 ) -> bytes:
-    """Write the record of a finished deck."""
+    """Write the record of a finished deck; reports are named from the folder they go to."""
     return json.dumps(
         {
             "settings": dict(settings),
             "sources": dict(sources),
-            "reports": {path.name: digest(content) for path, content in files.items()},
+            "reports": {name: digest(content) for name, content in reports.items()},
             "entry": summary_of(entry),
         },
         indent=1,

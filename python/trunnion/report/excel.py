@@ -100,7 +100,7 @@ def _styles(book: "Workbook") -> _Styles:
 
 def _pieces(sheet: Sheet) -> Iterator[tuple[str, Sheet]]:
     """Cut what is longer than Excel's sheets."""
-    name = sheet.name.capitalize()
+    name = sheet.name.replace("_", " ").capitalize()
     if len(sheet) <= MOST_ROWS:
         yield name, sheet
         return

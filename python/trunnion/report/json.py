@@ -41,7 +41,7 @@ def json_report(results: Results, model: Model | None = None) -> bytes:
         "envelope": envelope_entries(results),
     }
     if results.cycles:
-        parts["cycles"] = cycle_entries(results)
+        parts["cycles"] = cycle_entries(results, state_entry)
     if results.spreads:
         from trunnion.report.json_spread import spread_entries
 
@@ -91,7 +91,20 @@ def _numbers(case: CaseResult) -> dict[str, str]:
     parts["supports"] = support_entries(case)
     parts["elements"] = _elements(case)
     parts["stresses"] = _stresses(case)
+    if case.total is not None:
+        parts["total"] = state_entry(case.total)
     return parts
+
+
+def state_entry(case: CaseResult) -> str:
+    """Write the numbers that a state stands on, and their certificate, without what follows."""
+    state = solved(case)
+    parts = {"name": dump(case.name), "certificate": dump(_certificate(case.certificate))}
+    parts["nodes"] = _by_node(case.system, state.u, {})
+    if state.u_low.any():
+        parts["nodes_low"] = _by_node(case.system, state.u_low, {})
+    parts["supports"], parts["elements"] = support_entries(case), _elements(case)
+    return lines(parts | {"warnings": dump(list(case.warnings))})
 
 
 def _finite(record: Mapping[str, object]) -> dict[str, object]:

@@ -11,6 +11,12 @@ def mode_entries(modes: ModeSet, system: System) -> str:
     """Write frequencies, participation, effective mass, proof, and shapes at the model's nodes."""
     share = mass_percent(modes)
     named = [dict(zip(system.labels, rows(shape), strict=False)) for shape in modes.shape]
+    n = len(system.labels)
+    exact = {}
+    if modes.added:
+        exact["shapes_added"] = listing(f"[{','.join(rows(shape[n:]))}]" for shape in modes.shape)
+    if modes.shape_low.any():
+        exact["shapes_low"] = listing(f"[{','.join(rows(low))}]" for low in modes.shape_low)
     return lines(
         {
             "frequency_hz": dump(modes.frequency.tolist()),
@@ -25,6 +31,8 @@ def mode_entries(modes: ModeSet, system: System) -> str:
             "added_nodes": dump(modes.added),
             "proven": dump(modes.proven),
             "counted_hz": dump(modes.counted),
+            "mesh_hz": dump(modes.cut),
             "shapes": listing(lines(shape) for shape in named),
+            **exact,
         }
     )

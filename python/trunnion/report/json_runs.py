@@ -1,5 +1,7 @@
 """What the JSON report says about all cases together: the envelope of supports, the cycles."""
 
+from collections.abc import Callable
+
 import numpy as np
 
 from trunnion.arrays import F8, CaseResult, CycleResult, FrozenBreak, Results
@@ -55,12 +57,12 @@ def envelope_entries(results: Results) -> str:
     )
 
 
-def cycle_entries(results: Results) -> str:
-    """Write every cycle."""
-    return lines({name: _cycle(cycle) for name, cycle in results.cycles.items()})
+def cycle_entries(results: Results, state_entry: Callable[[CaseResult], str]) -> str:
+    """Write every cycle; `state_entry` writes the numbers of one step."""
+    return lines({name: _cycle(cycle, state_entry) for name, cycle in results.cycles.items()})
 
 
-def _cycle(cycle: CycleResult) -> str:
+def _cycle(cycle: CycleResult, state_entry: Callable[[CaseResult], str]) -> str:
     parts = {
         "cases": dump(list(cycle.cases)),
         "cause": dump(cycle.cause),
@@ -85,6 +87,7 @@ def _cycle(cycle: CycleResult) -> str:
         elements |= _ranges(cycle.elements[:, i], alone, end)
     parts["supports"] = listing(records(supports))
     parts["elements"] = listing(records(elements))
+    parts["states"] = listing(state_entry(step) for step in cycle.path)
     return lines(parts)
 
 

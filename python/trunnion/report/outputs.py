@@ -28,6 +28,9 @@ OUTPUTS: Mapping[str, Output] = {
     "html": Output("trunnion.report.html", ("plotly", "jinja2"), "html"),
 }
 
+#: of files that a run writes: a deck of such a name could be overwritten by its reports
+SUFFIXES = (".out", ".json", ".h5", ".xlsx", ".csv", ".html", ".vtu", ".pvd")
+
 
 def missing(name: str) -> str:
     """Say what is not installed for a format; nothing if all is there."""

@@ -65,7 +65,7 @@ def amounts(head: str, values: ArrayLike, quantity: Quantity) -> Column:
 def six(heads: Sequence[str], values: F8, first: Quantity, second: Quantity) -> list[Column]:
     """Give (n, 6) numbers: three of one quantity and three of another, each to 5 digits."""
     both = [
-        quantity.showing(float(np.abs(half).max(initial=0.0)))
+        quantity.showing(float(np.abs(np.nan_to_num(half)).max(initial=0.0)))
         for quantity, half in ((first, values[:, :3]), (second, values[:, 3:]))
     ]
     return [amounts(head, values[:, i], both[i // 3]) for i, head in enumerate(heads)]
@@ -87,5 +87,15 @@ def all_sheets(results: Results, model: Model) -> list[Sheet]:
         found += [displacements(good, units), forces(good, units), stresses(good, units)]
     if results.modes is not None:
         found.append(modes(results.modes))
+    if results.cycles:
+        from trunnion.report.sheet_loops import cycle_forces, cycles
+
+        loops = list(results.cycles.values())
+        found += [cycles(loops, units), cycle_forces(loops, units)]
+    if results.spreads:
+        from trunnion.report.sheet_spread import spread_forces, spread_loads, spread_tries
+
+        others = list(results.spreads.values())
+        found += [spread_tries(others), spread_loads(others, units), spread_forces(others, units)]
     found += [certificates(results), warnings(results, model, units)]
     return [sheet for sheet in found if len(sheet) or sheet.name in ("summary", "warnings")]

@@ -56,6 +56,7 @@ def answer(
         The structure moves freely with every contact closed, or a load acts where nothing
         resists.
     """
+    structure.ledger.watch.begin(question.name)
     forcing = prepared.forcing if prepared else forcing_of(structure, question)
     history = History(structure.system, structure.ledger)
     result = unanswered(structure, question)
@@ -188,6 +189,7 @@ def _attempt(job: Job, prepared: Prepared | None = None) -> Origin | None:
     job.solved = solved
     if not solved.settled:
         return None
+    structure.ledger.watch.part = "certificate"
     reported = report_numbers(structure, point, solved.sliding, forcing)
     result.certificate = certify(
         structure.system,

@@ -171,6 +171,15 @@ def _mixed(pencil: Pencil, w2: F8, r: F8, x: F8) -> F8:
     return step
 
 
+def residuals(pencil: Pencil, w2: F8, x: F8, low: F8) -> F8:
+    """(m,) |K x - w2 M x| / |w2 M x| of pairs whose vectors have low parts; rows of freedoms."""
+    points = [
+        Point(v.reshape(-1, 6).copy(), e.reshape(-1, 6).copy()) for v, e in zip(x, low, strict=True)
+    ]
+    mass = pencil.mass_product(x)
+    return _relative(pencil, w2, w2[:, None] * mass - pencil.stiffness_product(points), mass)
+
+
 def _relative(pencil: Pencil, w2: F8, r: F8, mass: F8) -> F8:
     """|r| / |w2 M x|; of rigid modes to the lowest elastic eigenvalue."""
     scale = np.abs(w2)

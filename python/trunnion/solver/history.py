@@ -32,6 +32,7 @@ class History:
         switched = sliders.card[(before.mode != after.mode)[:m]].tolist()
         changed = sorted({*turned, *switched})
         self.ledger.add(iterations=1)
+        self.ledger.watch.note(residual)
         if len(self.records) == 0:
             self._keep(before)
         self._keep(after)

@@ -1,6 +1,7 @@
 """The work ledger: exact counts of what a solve did, the same on every machine."""
 
 from trunnion.kernels import SpdWork
+from trunnion.watch import Watch
 
 
 class Ledger:
@@ -9,13 +10,15 @@ class Ledger:
     analyse, factorise, solve : CHOLMOD calls (a solve is one right-hand side).
     refine : solves of the final refinement and certificate, a share of `solve` kept apart.
     elements : element evaluations; assemble : assemblies of K; iterations : passes.
+    `watch` tells whoever looks at it what the work is at; it counts nothing.
     Counts of natural modes stand there only once there are any: mass (assemblies of M),
     inertia (factorisations that count eigenvalues).
     """
 
     NAMES = ("analyse", "factorise", "solve", "refine", "elements", "assemble", "iterations")
 
-    def __init__(self) -> None:
+    def __init__(self, watch: Watch | None = None) -> None:
+        self.watch = watch or Watch()
         self.count = dict.fromkeys(self.NAMES, 0)
         self._seen: dict[int, SpdWork] = {}
         self.refining = False

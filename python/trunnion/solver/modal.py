@@ -37,15 +37,9 @@ def modes_of(
     """
     cut = card.fmax or FIRST_CUT
     for _ in range(MESHES):
-        mesh = _mesh(frozen, masses, card, cut)
-        if mesh.added:
-            structure = Structure(mesh.system, ledger, whole=True)
-        else:
-            above = None if parent is None else parent.full
-            structure = Structure(frozen, ledger, above, keep, whole=True)
-        inner = masses.parted(mesh.part_of, len(mesh.system.labels))
-        pencil = Pencil(structure, inner, lumped=card.mass == "LUMPED", rotary=card.rotary)
+        mesh, pencil = pencil_of(frozen, masses, card, ledger, cut, parent, keep)
         found = natural_modes(pencil, card.n, fmax=card.fmax, mesh=mesh, place=card.place)
+        found = replace(found, cut=cut)
         highest = float(found.frequency.max(initial=0.0))
         if card.fmax is not None or highest <= cut or card.mesh == "NONE":
             break
@@ -53,6 +47,26 @@ def modes_of(
         if _mesh(frozen, masses, card, cut).added == mesh.added:
             break
     return found, pencil
+
+
+def pencil_of(
+    frozen: System,
+    masses: Masses,
+    card: Modes,
+    ledger: Ledger,
+    cut: float,
+    parent: Structure | None = None,
+    keep: I4 | None = None,
+) -> tuple[Mesh, Pencil]:
+    """Mesh for a cut-off [Hz], and K and M on it; other parameters as of `modes_of`."""
+    mesh = _mesh(frozen, masses, card, cut)
+    if mesh.added:
+        structure = Structure(mesh.system, ledger, whole=True)
+    else:
+        above = None if parent is None else parent.full
+        structure = Structure(frozen, ledger, above, keep, whole=True)
+    inner = masses.parted(mesh.part_of, len(mesh.system.labels))
+    return mesh, Pencil(structure, inner, lumped=card.mass == "LUMPED", rotary=card.rotary)
 
 
 def _mesh(frozen: System, masses: Masses, card: Modes, cut: float) -> Mesh:

@@ -16,6 +16,7 @@ from trunnion.solver.status import release, solve_status
 from trunnion.solver.structure import Structure
 from trunnion.solver.verdict import commit
 
+SUB_STEPS = "sub-steps"  # word of the warnings of cases whose path is another than asked
 RAMPS = (2, 4, 8, 16, 32, 64)
 LAST_PASSES = 1500  # of the status iteration where one step has failed
 
@@ -114,7 +115,7 @@ def _fallbacks(span: Span, point: Point, first: Solved) -> Solved:
         solved = _ramp(span, point, n)
         if solved.settled:
             span.history.notes.append(
-                f"solved in {n} sub-steps because one step did not settle: "
+                f"solved in {n} {SUB_STEPS} because one step did not settle: "
                 "with friction this is the answer of a ramped load"
             )
             return solved

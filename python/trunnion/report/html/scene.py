@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from trunnion.arrays import F8, CaseResult, Contacts, Results, System
 from trunnion.report.centreline import Lines, along, cut, shape
+from trunnion.report.html.bodies import dressed
 from trunnion.report.units import ReportUnits
 from trunnion.results.stresses import pipe_elements, pipe_stresses
 from trunnion.results.supports import (
@@ -33,8 +34,10 @@ def scene(results: Results, units: ReportUnits) -> dict[str, object] | None:
     if results.base is None and not results.cases:
         return None
     system = results.system
-    lines = cut(system, _parts(system, len(good)), COARSE)
+    dress = dressed(system, cut(system, _parts(system, len(good)), COARSE))
+    lines = dress.lines
     where, tangent, radius = shape(system, lines)
+    radius = np.where(np.isnan(dress.radius), radius, dress.radius)
     return {
         "up": system.up.tolist(),
         "at": packed(where),

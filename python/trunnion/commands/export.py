@@ -1,0 +1,78 @@
+"""trunnion export: a job for another program."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from trunnion.commands.shared import (
+    DECK,
+    FOLDER,
+    FOREIGN,
+    SOLVED,
+    InputError,
+    beside,
+    read_model,
+    refuse_unwritable,
+    say,
+    solve_model,
+)
+
+if TYPE_CHECKING:
+    from trunnion.arrays import Results
+    from trunnion.exports import Job
+    from trunnion.formats.options import Options
+    from trunnion.model import Model
+
+PROGRAMS = ("opensees", "calculix")
+CASES = click.option(
+    "--case", "cases", multiple=True, metavar="NAME", help="Only this case; may be repeated."
+)
+LEAVE_OUT = click.option(
+    "--permissive", is_flag=True, help="Leave out what cannot be represented, and list it."
+)
+
+
+@click.command()
+@DECK
+@click.option("--to", "program", type=click.Choice(PROGRAMS), default="opensees", show_default=True)
+@CASES
+@FOLDER
+@LEAVE_OUT
+@beside
+def export(
+    deck: Path,
+    program: str,
+    cases: tuple[str, ...],
+    folder: Path,
+    permissive: bool,
+    options: "Options | None",
+) -> int:
+    """Solve DECK and write it as a job for another program."""
+    from trunnion.exports import files
+    from trunnion.report.atomic import write_files
+
+    refuse_unwritable(folder)
+    _, _, job = exported(deck, cases, permissive=permissive, options=options)
+    made = files(job, program, deck.stem)
+    write_files({folder / name: content for name, content in made.items()})
+    for text in (*job.notes, *(f"LEFT OUT: {problem}" for problem in job.left_out)):
+        say(text)
+    say("wrote " + "  ".join(str(folder / name) for name in made))
+    return SOLVED
+
+
+def exported(
+    deck: Path, cases: tuple[str, ...], *, permissive: bool, options: "Options | None"
+) -> "tuple[Model, Results, Job]":
+    """Read and solve a deck, and take it apart for another program."""
+    from trunnion.exports import build_job
+    from trunnion.exports.refusals import ExportError
+
+    foreign = deck.suffix.lower() in FOREIGN
+    model = read_model(deck, permissive=permissive and foreign, options=options)
+    results = solve_model(model)
+    try:
+        return model, results, build_job(model, results, cases, permissive=permissive)
+    except ExportError as error:
+        raise InputError(str(error)) from None

@@ -1,0 +1,1 @@
+"""The text of exported scripts, one module after the other; see `frame`."""

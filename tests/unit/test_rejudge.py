@@ -1,0 +1,232 @@
+"""trunnion verify --certificate: one number of each kind, changed by 1e-6 of itself, fails.
+
+The deck has what a state, a combination, an increment, a spectrum and a loop are judged by.
+"""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from trunnion.cli import main
+
+MODELS = Path(__file__).parents[2] / "models"
+DECK = """\
+TITLE    Everything that a stored result can hold
+UNITS    mm kN bar C
+DEFAULT  MU=0.3
+MATERIAL A106B  E=203GPa NU=0.3 ALPHA=11.7e-6 DENSITY=7850
+SECTION  HDR    NPS=10 SCH=40 FLUID=850
+OPERATE  T1=170 P1=12 TREF=20
+ANCHOR   10
+PIPE     10 20   DX=6000
+SUPPORT  20      +Y GUIDE GAP=3
+PIPE     20 30   DX=6000
+BEND     30      R=381
+PIPE     30 40   DZ=4000
+SUPPORT  40      +Y
+SNUBBER  40      X
+PIPE     40 50   DZ=4000
+SUPPORT  50      +Y LIMIT GAP=10
+HANGER   20      RATE=0.1 LOAD=2
+SPECTRUM SSE     TABLE=(0.5,0.1),(2.5,0.6),(9,0.6),(33,0.25)
+FORCE    40 F1   FX=2 FZ=1
+CASE SUS = W + P1 + H + F1
+CASE OPE = W + P1 + T1 + H + F1
+CASE LOCK = W + P1 + H FROM=OPE SNUBBERS=LOCKED
+CASE EQX = U(0.3,2,0) ABOUT=OPE
+CASE EQN = U(0.6,0.2,0) ABOUT=OPE NONLINEAR
+CASE RSP = SPECTRUM(SSE,X) + SPECTRUM(SSE,Y,0.667) MISSING=ON
+COMB EXP = OPE - SUS
+COMB OCC = SUS + ABS(RSP)
+CYCLE HEAT = OPE, SUS TIMES=3
+MODES 6 ABOUT=OPE
+"""
+
+
+def leave(*arguments: object) -> int:
+    with pytest.raises(SystemExit) as stop:
+        main([str(a) for a in arguments])
+    return stop.value.code
+
+
+@pytest.fixture(scope="module")
+def written(tmp_path_factory):
+    """Bytes of the JSON of DECK."""
+    folder = tmp_path_factory.mktemp("rejudge")
+    (folder / "a.inp").write_text(DECK)
+    assert leave("run", folder / "a.inp", "-o", folder) == 0
+    return (folder / "a.json").read_bytes()
+
+
+@pytest.fixture
+def home(tmp_path, written, monkeypatch):
+    (tmp_path / "a.inp").write_text(DECK)
+    (tmp_path / "a.json").write_bytes(written)
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def test_everything_is_judged_and_holds(home, capsys):
+    assert leave("verify", "--certificate", "a.json") == 0
+    found = [line.split(":")[:2] for line in capsys.readouterr().out.splitlines()]
+    names = ("SUS", "OPE", "LOCK", "EQX", "EQN", "RSP", "EXP", "OCC", "CYCLE HEAT", "modes",
+             "envelope")  # fmt: skip
+    assert found == [[name, " holds"] for name in names]
+
+
+def table(*path):
+    """Largest number of a table: path to the table, then the key of its entries, if any."""
+
+    def of(report):
+        place = report
+        for key in path:
+            if isinstance(place, list) and isinstance(key, str):
+                places = [entry[key] for entry in place]
+                break
+            place = place[key]
+        else:
+            places = list(place.values()) if isinstance(place, dict) else [place]
+        rows = [(r, i) for r in _rows(places) for i, x in enumerate(r) if isinstance(x, float)]
+        return max(rows, key=lambda pair: abs(pair[0][pair[1]]))
+
+    return of
+
+
+def _rows(value):
+    """Lists of numbers inside lists."""
+    if isinstance(value, list) and any(isinstance(x, list | dict) for x in value):
+        return [row for x in value for row in _rows(x)]
+    if isinstance(value, dict):
+        return [row for x in value.values() for row in _rows(x)]
+    return [value] if isinstance(value, list) else []
+
+
+def contact(*path, key):
+    """A vector of the contacts or sliders of a table of supports."""
+
+    def of(report):
+        place = report
+        for step in path:
+            place = place[step]
+        what, name = key
+        rows = [entry[name] for support in place for entry in support[what]]
+        rows = [(row, i) for row in rows for i in range(len(row))]
+        return max(rows, key=lambda pair: abs(pair[0][pair[1]]))
+
+    return of
+
+
+def scalar(*path, key):
+    """A number of an entry of contacts or supports."""
+
+    def of(report):
+        place = report
+        for step in path:
+            place = place[step]
+        entries = place if key[0] is None else [e for s in place for e in s[key[0]]]
+        return max(entries, key=lambda entry: abs(entry[key[1]])), key[1]
+
+    return of
+
+
+STATES = {
+    "SUS": ("cases", "SUS"),
+    "OPE": ("cases", "OPE"),
+    "LOCK": ("cases", "LOCK"),
+    "EQX": ("cases", "EQX"),
+    "EQN": ("cases", "EQN", "total"),
+    "CYCLE HEAT": ("cycles", "HEAT", "states", 3),
+}
+KINDS = {}
+for name, path in STATES.items():
+    KINDS |= {
+        f"{name} displacement": (name, table(*path, "nodes")),
+        f"{name} end force": (name, table(*path, "elements", "force_to")),
+        f"{name} local force": (name, table(*path, "elements", "local_from")),
+        f"{name} support load": (name, table(*path, "supports", "force")),
+        f"{name} contact": (name, contact(*path, "supports", key=("contacts", "vector"))),
+        f"{name} reaction": (name, scalar(*path, "supports", key=("contacts", "reaction"))),
+        f"{name} normal": (name, scalar(*path, "supports", key=("contacts", "normal"))),
+        f"{name} normal of card": (name, scalar(*path, "supports", key=(None, "normal"))),
+    }
+    if name != "EQX":
+        KINDS |= {
+            f"{name} friction": (name, contact(*path, "supports", key=("contacts", "friction"))),
+            f"{name} friction of card": (name, table(*path, "supports", "friction")),
+            f"{name} slide": (name, contact(*path, "supports", key=("contacts", "slide"))),
+            f"{name} datum": (name, contact(*path, "supports", key=("sliders", "datum_end"))),
+        }
+for name in ("EQN", "RSP", "EXP", "OCC"):
+    KINDS |= {
+        f"{name} displacement of result": (name, table("cases", name, "nodes")),
+        f"{name} end force of result": (name, table("cases", name, "elements", "force_from")),
+        f"{name} local force of result": (name, table("cases", name, "elements", "local_to")),
+        f"{name} support load of result": (name, table("cases", name, "supports", "force")),
+        f"{name} moment of result": (name, table("cases", name, "supports", "moment")),
+        f"{name} normal of result": (name, scalar("cases", name, "supports", key=(None, "normal"))),
+        f"{name} stress of result": (name, table("cases", name, "stresses", "von_mises")),
+    }
+KINDS |= {
+    "balance": ("SUS", table("cases", "SUS", "reactions", "force")),
+    "frozen check": ("EQX", scalar("cases", "EQX", "frozen_check", key=(None, "amount"))),
+    "cycle range": ("CYCLE HEAT", table("cycles", "HEAT", "supports", "range")),
+    "cycle one shot": ("CYCLE HEAT", table("cycles", "HEAT", "supports", "one_shot")),
+    "cycle path": ("CYCLE HEAT", table("cycles", "HEAT", "supports", "path")),
+    "cycle end force": ("CYCLE HEAT", table("cycles", "HEAT", "elements", "range_to")),
+    "frequency": ("modes", table("modes", "frequency_hz")),
+    "shape": ("modes", table("modes", "shapes")),
+    "added shape": ("modes", table("modes", "shapes_added")),
+    "participation": ("modes", table("modes", "participation")),
+    "mass": ("modes", table("modes", "effective_mass")),
+    "envelope": ("envelope", table("envelope", "max")),
+}
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_number_changed_by_1e_6_fails(home, written, kind, capsys):
+    report = json.loads(written)
+    where, find = KINDS[kind]
+    row, at = find(report)
+    assert row[at] != 0.0, "a zero cannot be changed by a part of itself"
+    row[at] *= 1.0 + 1e-6
+    (home / "b.json").write_text(json.dumps(report))
+    assert leave("verify", "--certificate", "b.json") == 1
+    assert f"{where}: FAILS" in capsys.readouterr().out
+
+
+def test_a_state_that_begins_elsewhere_fails(home, written, capsys):
+    """Datum and travel moved together satisfy every law, but not the history of the case."""
+    report = json.loads(written)
+    for support in report["cases"]["OPE"]["supports"]:
+        for slider in support["sliders"]:
+            first = support["contacts"][slider["contacts"][0]]
+            if slider["state"] == "slip":
+                slider["datum"][2] += 1e-9
+                first["slide"][2] -= 1e-9
+    (home / "b.json").write_text(json.dumps(report))
+    assert leave("verify", "--certificate", "b.json") == 1
+    assert "OPE: FAILS" in capsys.readouterr().out
+
+
+def test_what_the_file_does_not_have_is_not_judged(home, written, capsys):
+    report = json.loads(written)
+    del report["modes"]["mesh_hz"], report["cycles"]["HEAT"]["states"]
+    del report["cases"]["EQN"]["total"]
+    (home / "b.json").write_text(json.dumps(report))
+    assert leave("verify", "--certificate", "b.json") == 0
+    said = capsys.readouterr().out.splitlines()
+    silent = [line.split(":")[0] for line in said if ": not judged: " in line]
+    assert silent == ["EQN", "RSP", "OCC", "CYCLE HEAT", "modes", "envelope"]
+
+
+@pytest.mark.parametrize("deck", sorted(path.stem for path in MODELS.glob("*.inp")))
+def test_every_model_is_judged_and_holds(tmp_path, deck, capsys):
+    source = MODELS / f"{deck}.inp"
+    leave("run", source, "-o", tmp_path)
+    capsys.readouterr()
+    code = leave("verify", "--certificate", "--deck", source, tmp_path / f"{deck}.json")
+    out = capsys.readouterr().out
+    assert code == 0, out
+    loose = [x for x in out.splitlines() if ": not judged: " in x and ": no numbers: " not in x]
+    assert not loose
