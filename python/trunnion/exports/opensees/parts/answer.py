@@ -60,7 +60,7 @@ def answer(frame: Frame) -> dict[str, Any]:
         push = [-x for x in ops.eleForce(tag)[6:12]]
         force[card] = add(force[card], push)
         pushes.append(push)
-    law, where = judge(frame, moved, pushes)
+    law, where = judge(job, frame.case, moved, pushes)
     return {
         "converged": True,
         "nodes": moved,
