@@ -106,13 +106,16 @@ def _both(
 
 def _judge(own: dict[str, Any], found: dict[str, Any], name: str, allowed: float) -> bool:
     """Print how far the other program is away; tell whether that is near enough."""
-    from trunnion.exports.agreement import agrees, differences, laws, table, unanswered
+    from trunnion.exports.agreement import agrees, differences, laws, table, tried, unanswered
 
     rows, held, without = differences(own, found), laws(found), unanswered(own, found)
     if rows:
         say(table(rows, name, allowed))
     for case, (value, where) in held.items():
-        say(f"{case}: laws of the held contacts hold to {value:.1e}" + f" ({where})" * bool(where))
+        place = f" ({where})" if value else ""
+        say(f"{case}: laws of the held contacts hold to {value:.1e}{place}")
+    for case, what in tried(found, allowed).items():
+        say(f"{case}: friction elements of {name} {what}")
     for case, why in without.items():
         say(f"{case}: not confirmed: {why}")
     good = agrees(rows, held, allowed) and not without

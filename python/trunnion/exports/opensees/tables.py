@@ -115,6 +115,8 @@ def _case(scene: Scene, case: CaseResult, found: Stand, which: int) -> Iterable[
     ratio, springs = modulus_ratio(scene, case), s.kind == SPRING
     yield f"        {case.name!a}: {{"
     yield f'{pad}"text": {case.text!a}, "supports": {which},'
+    if found.rubs:
+        yield f'{pad}"steps": {scene.steps[case.name]},'
     rows: dict[str, list[str]] = {
         "modulus": _named(names, np.where(ratio == 1.0, 0.0, ratio)),
         "line": _named(names, loads.dist * pipe),

@@ -7,7 +7,15 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from trunnion.exports.agreement import TOLERANCE, agrees, differences, laws, table, unanswered
+from trunnion.exports.agreement import (
+    TOLERANCE,
+    agrees,
+    differences,
+    laws,
+    table,
+    tried,
+    unanswered,
+)
 from trunnion.exports.opensees.parts.answer import solve
 
 
@@ -36,6 +44,8 @@ def main(job: Mapping[str, Any], arguments: Sequence[str] | None = None) -> int:
     own = json.loads(chosen.compare.read_text())
     rows = differences(own, found)
     print("\n" + table(rows, "OpenSees", chosen.allow))
+    for name, what in tried(found, chosen.allow).items():
+        print(f"{name}: friction elements of OpenSees {what}")
     for name, why in unanswered(own, found).items():
         print(f"{name}: not compared: {why}")
     good = agrees(rows, laws(found), chosen.allow) and not unanswered(own, found)
