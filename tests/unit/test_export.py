@@ -304,6 +304,15 @@ def test_friction_without_an_answer_names_its_supports():
         build_job(model, trunnion.solve(model))
 
 
+def test_calculix_holds_every_contact_so_it_needs_an_answer():
+    model = trunnion.read(ROOT / "models/b313_s302.inp")
+    results = trunnion.solve(model)
+    results["SUS"].state, results["SUS"].converged = None, False
+    assert len(build_job(model, results, ["SUS"]).scene.cases) == 1  # OpenSees finds contacts
+    with pytest.raises(ExportError, match=r"no answer whose contacts could be held at 20 \+Y, 50"):
+        build_job(model, results, ["SUS"], program="calculix")
+
+
 @pytest.mark.parametrize(
     ("name", "said"), [("OPEN", "OPEN is not a case"), ("EXP", "COMB EXP: no case")]
 )

@@ -116,7 +116,7 @@ def test_the_held_states_are_judged(program, folder):
     results = trunnion.solve(model)
     case = results["FRIC1"]
     case.state.friction *= 1.001
-    job = build_job(model, results, ["FRIC1"])
+    job = build_job(model, results, ["FRIC1"], program=program)
     for name, content in files(job, program, "pushed").items():
         (folder / name).write_bytes(content)
     found = answer(job, program, folder, "pushed")

@@ -64,7 +64,7 @@ def confirm(
         refuse_unwritable(folder)
     with shown(f"reading {deck.name}") as watch, TemporaryDirectory() as scratch:
         model, results, job = exported(
-            deck, cases, permissive=permissive, options=options, watch=watch
+            deck, program, cases, permissive=permissive, options=options, watch=watch
         )
         if watch is not None:
             watch.turn(f"{NAMES[program]} is solving")

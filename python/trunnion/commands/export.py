@@ -56,7 +56,9 @@ def export(
 
     refuse_unwritable(folder)
     with shown(f"reading {deck.name}") as watch:
-        _, _, job = exported(deck, cases, permissive=permissive, options=options, watch=watch)
+        _, _, job = exported(
+            deck, program, cases, permissive=permissive, options=options, watch=watch
+        )
         made = files(job, program, deck.stem)
     write_files({folder / name: content for name, content in made.items()})
     for line in said(job):
@@ -67,6 +69,7 @@ def export(
 
 def exported(
     deck: Path,
+    program: str,
     cases: tuple[str, ...],
     *,
     permissive: bool,
@@ -81,9 +84,10 @@ def exported(
     model = read_model(deck, permissive=permissive and foreign, options=options)
     results = solve_model(model, watch=watch)
     try:
-        return model, results, build_job(model, results, cases, permissive=permissive)
+        job = build_job(model, results, cases, program=program, permissive=permissive)
     except ExportError as error:
         raise InputError(str(error)) from None
+    return model, results, job
 
 
 def said(job: "Job") -> list[str]:

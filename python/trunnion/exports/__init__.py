@@ -34,16 +34,21 @@ class Job:
 
 
 def build_job(
-    model: Model, results: Results, cases: Sequence[str] = (), *, permissive: bool = False
+    model: Model,
+    results: Results,
+    cases: Sequence[str] = (),
+    *,
+    program: str = "opensees",
+    permissive: bool = False,
 ) -> Job:
-    """Choose the cases and say what of them is carried over.
+    """Choose the cases for a program and say what of them is carried over.
 
     Raises
     ------
     ExportError
         Cases that cannot be written, unless `permissive` leaves them out; or none is left.
     """
-    chosen, problems = chosen_cases(model, results, cases)
+    chosen, problems = chosen_cases(model, results, cases, finds=program == "opensees")
     if problems and not (permissive and chosen):
         raise ExportError(problems)
     if not chosen:

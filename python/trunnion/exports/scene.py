@@ -151,7 +151,8 @@ def _rubs(case: CaseResult, rows: Sequence[Sequence[int]]) -> list[Rub]:
     assert case.loads is not None
     found = []
     for i, mode in enumerate(state.mode.tolist()):
-        if mode == ENGAGED:  # MUX=0: no friction
+        mu = float(s.mu[i]) * case.loads.mux
+        if mode == ENGAGED or mu == 0.0:
             continue
         pressing = s.contact[s.first[i] : s.first[i + 1]].tolist()
         basis = tuple(_vector(way) for way in s.basis[i] if way.any())
@@ -160,7 +161,7 @@ def _rubs(case: CaseResult, rows: Sequence[Sequence[int]]) -> list[Rub]:
                 i,
                 int(s.card[i]),
                 MODES[mode],
-                float(s.mu[i]) * case.loads.mux,
+                mu,
                 float(s.kf[i]),
                 basis,
                 _vector(state.datum[i]),
