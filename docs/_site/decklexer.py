@@ -9,7 +9,7 @@ from pygments.token import Comment, Keyword, Name, Number, Operator, Text
 from trunnion.deck.keywords import TABLE
 
 
-class DeckLexer(RegexLexer):
+class DeckLexer(RegexLexer):  # type: ignore[misc]
     """Cards of a deck."""
 
     name = "Trunnion deck"

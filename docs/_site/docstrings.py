@@ -3,6 +3,7 @@
 numpydoc reads what stands behind the colon as a type; here it is the meaning, with shape and unit.
 """
 
+import inspect
 import re
 from typing import Any
 
@@ -47,11 +48,48 @@ def _safe(text: str) -> str:
     return "".join(parts)
 
 
+ARRAY = re.compile(r"~?numpy\.ndarray\[tuple\[~?typing\.Any, \.\.\.\], ~?numpy\.dtype\[[^\]]+\]\]")
+FIELD = re.compile(r"^    (\w+): ([^=#]+?)(?: = [^#]*?)?(?:  # (.+))?$", re.MULTILINE)
+OWN = ("Model",)  # its fields are records that its methods make
+
+
+def fields(obj: Any, said: list[str]) -> list[str]:
+    """List the fields of a data class that its docstring does not explain, with their comments."""
+    known = {name for line in said for name in re.findall(r"``(\w+)``", line)}
+    found = [
+        f"- ``{name}`` (``{kind.strip()}``)" + (f": {_safe(comment)}" if comment else "")
+        for name, kind, comment in FIELD.findall(inspect.getsource(obj).split("\n    def ")[0])
+        if name in obj.__dataclass_fields__ and name not in known
+    ]
+    return ["", "**Fields**", "", *found, ""] if found else []
+
+
 def _process(app: Any, what: str, name: str, obj: Any, options: Any, lines: list[str]) -> None:
     lines[:] = rewritten(lines)
+    if what == "class" and _is_data(obj) and obj.__name__ not in OWN:
+        lines[:] = ["**Fields**" if line == "**Parameters**" else line for line in lines]
+        lines += fields(obj, lines)
+
+
+def _is_data(obj: Any) -> bool:
+    return hasattr(obj, "__dataclass_fields__")
+
+
+def _signature(
+    app: Any, what: str, name: str, obj: Any, options: Any, words: str | None, back: str | None
+) -> tuple[str | None, str | None]:
+    """Leave out what makes a result, which a user never does, and what arrays are made of."""
+    if what == "class" and _is_data(obj):
+        return "", ""
+    return _short(words), _short(back)
+
+
+def _short(text: str | None) -> str | None:
+    return text and ARRAY.sub("~numpy.ndarray", text)
 
 
 def setup(app: Any) -> dict[str, bool]:
     """Hand the rewriting to autodoc."""
     app.connect("autodoc-process-docstring", _process)
+    app.connect("autodoc-process-signature", _signature)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -69,6 +69,8 @@ def test_first_rest_of_the_rack_lifts_off_when_hot(header):
 def test_hanger_gives_way_to_the_riser(header):
     # cold load 9.8 kN less rate 0.03 kN/mm times the movement
     movement = header["OPE"].u("60")[1]
+    hanger = header["OPE"].support("60")[1] / 1e3
+    agrees(HEADER, "OPE, load of the hanger, 9.8 kN cold", 9.1, hanger, "kN")
     assert movement > 0.020
     assert header["OPE"].support("60")[1] == pytest.approx(9800 - 30e3 * movement, rel=1e-12)
 
@@ -91,6 +93,17 @@ def test_axial_stops_are_reached(header):
 def test_friction_keeps_the_cooled_line_from_coming_back(header):
     cold, never_hot = header["COLD"], header["SUS"]
     assert np.abs(cold.u("90") - never_hot.u("90"))[:3].max() > 1e-4
+    away = np.abs(cold.state.u - never_hot.state.u)[:, :3].max()
+    agrees(HEADER, "COLD, farthest from SUS", 16, 1e3 * away, "mm")
+
+
+def test_loop_gives_way(header):
+    moved = np.linalg.norm(header["OPE"].u("130")[:3])
+    agrees(HEADER, "OPE, movement of the loop's corner at 130", 45, 1e3 * moved, "mm")
+
+
+def test_weight_on_the_nozzle(header):
+    agrees(HEADER, "SUS, load on the nozzle FY", -4.7, header["SUS"].load("10")[1] / 1e3, "kN")
 
 
 def test_loads_on_the_nozzle(header):

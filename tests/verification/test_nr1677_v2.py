@@ -212,5 +212,10 @@ def test_gaps_with_the_spectrum_as_printed_in_the_source(found, case, most):
             if which == case
         ]
     )
-    assert forces.max() == pytest.approx(most, abs=2e-4)
+    differs(
+        NR1677, f"{case}, largest of our end forces over the print", "1.000", forces.max(),
+        found=most, abs=2e-4, why=f"with the lower spectrum as the source prints it; {case}6 reads "
+        "two of its digits otherwise (0.675 and 0.6 for 0.875 and 0.8), for at 12.5 Hz it would "
+        "pierce the spectrum that envelops it, and all but one of the numbers are met",
+    )  # fmt: skip
     assert forces.min() > 0.995

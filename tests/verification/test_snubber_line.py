@@ -12,6 +12,8 @@ import numpy as np
 import pytest
 from published import PROGRAMS, Source, agrees
 
+from trunnion.arrays import SLIP
+
 LINE = Source(
     PROGRAMS,
     "A riser with snubbers",
@@ -141,7 +143,16 @@ def test_riser_grows_freely_past_its_snubbers(line):
     moved = line["OPE"].u("40") - line["SUS"].u("40")
     shortened = (line["OPE"].support("10")[1] - line["SUS"].support("10")[1]) * 12 / EA
     assert moved[1] == pytest.approx(ALPHA * DT * 12 - shortened, rel=2e-4)
+    agrees(LINE, "OPE, rise of 40", "28.73", 1e3 * line["OPE"].u("40")[1], "mm")
     assert line["OPE"].u("70")[0] > 0.044
+
+
+@pytest.mark.parametrize(("label", "printed"), [("60", 5248), ("70", 3912)])
+def test_rests_slide_when_hot(line, label, printed):
+    ope = line["OPE"]
+    i = ope.slider(label, "+Y")
+    assert ope.state.mode[i] == SLIP
+    agrees(LINE, f"OPE, N on the rest at {label}, which slides", printed, ope.state.normal[i], "N")
 
 
 @pytest.mark.parametrize("case", ["SUS", "OPE", "HSUS"])
@@ -206,6 +217,9 @@ def test_upward_shock_would_have_to_pull_the_rest(line):
     hot = line["OPE"].support("60")[1]
     up = line["EQY"].support("60")[1]
     assert set(pulls) == {("60 +Y GUIDE", "+Y", "pulls"), ("20 GUIDE", "GUIDE", "pulls")}
+    for case, printed in (("EQY", 741.9), ("EQX", 1374.1)):
+        ours = breaks(line[case])["20 GUIDE", "GUIDE", "pulls"]
+        agrees(LINE, f"{case}, the guide at 20 would pull", printed, ours, "N")
     assert pulls["60 +Y GUIDE", "+Y", "pulls"] == pytest.approx(-(hot + up), rel=1e-12)
     agrees(LINE, "EQY, the rest at 60 would pull", 1041.3, pulls["60 +Y GUIDE", "+Y", "pulls"], "N")
 

@@ -39,6 +39,8 @@ def test_wind_by_the_velocity_pressure(crossing, node):
     kz = 2.01 * (10.0 / 274.32) ** (2 / 9.5)
     q = 0.613 * kz * 31.62**2
     each = q * 0.85 * 0.7 * (OD + 2 * COVER) * SPAN / 2
+    per_length = 2 * load(crossing, "WND", node, "fz") / SPAN
+    agrees(CROSSING, "WND, load per length", 136.2, per_length, "N/m")
     agrees(CROSSING, f"WND, {node} FZ", 817.1, load(crossing, "WND", node, "fz"), "N")
     assert load(crossing, "WND", node, "fz") == pytest.approx(each, rel=1e-9)
     assert load(crossing, "WND", node, "fy") == pytest.approx(0.0, abs=1e-9 * each)
