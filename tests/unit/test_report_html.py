@@ -340,14 +340,16 @@ def test_paper_has_every_table_and_no_buttons(parts_browser):
     browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
     try:
         browser.execute_script("window.dispatchEvent(new Event('beforeprint'))")
-        hidden, tables, high = browser.execute_script(
+        hidden, tables, high, caption = browser.execute_script(
             """
             const shows = (e) => getComputedStyle(e).display !== 'none';
             return [[...document.querySelectorAll('.tabs, .bar, #controls button, .hint')]
                     .filter(shows).length,
                 [...document.querySelectorAll('[data-table]')].map((t) =>
                     [t.dataset.table, shows(t) && t.getBoundingClientRect().height > 20]),
-                document.getElementById('scene').getBoundingClientRect().height];"""
+                document.querySelector('.stage').getBoundingClientRect().bottom -
+                    document.querySelector('header').getBoundingClientRect().top,
+                document.getElementById('caption').innerText];"""
         )
     finally:
         browser.execute_script("window.dispatchEvent(new Event('afterprint'))")
@@ -355,7 +357,9 @@ def test_paper_has_every_table_and_no_buttons(parts_browser):
     assert hidden == 0
     assert {"restraints", "displacements", "certificate"} <= {name for name, _ in tables}
     assert all(seen for _, seen in tables), tables
-    assert high > 300
+    page = 186 / 273 * 1260  # a landscape A4 less its margins, as wide as the page is laid out
+    assert 300 < high < page
+    assert caption.startswith("OPE = W + P1 + T1: displacement; movements \u00d7 ")
 
 
 def test_the_whole_outline_stands_in_the_middle_and_in_sight(parts_browser):

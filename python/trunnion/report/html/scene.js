@@ -406,6 +406,9 @@ const DATA = JSON.parse(document.getElementById("data").textContent);
       ...points(c, s, get("names").checked, pipe, text), triad()];
     if (get("ghost").checked && s > 0) traces.push(ghost());
     legend(key);
+    const colour = get("colour");
+    get("caption").textContent = c ? c.name + " = " + c.text + ": " +
+      colour.options[colour.selectedIndex].text + "; movements \u00d7 " + digits(s) : "";
     const config = { displaylogo: false, responsive: true, displayModeBar: false,
       scrollZoom: true, plotGlPixelRatio: 2 };
     return Plotly.react(stage, traces, layout, config).then(() => { stage.dataset.drawn = c
