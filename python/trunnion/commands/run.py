@@ -77,9 +77,12 @@ def run(
 
 
 def _shown(files: list[Path], folder: Path) -> list[str]:
-    """Name the files; those in a folder of their own by that folder."""
+    """Name the files; those in a folder of their own by that folder, pictures together."""
     inner = [file.parent for file in files if file.parent != folder]
-    alone = [str(file) for file in files if file.parent == folder]
+    pictures = [file for file in files if file.suffix == ".png"]
+    alone = [str(file) for file in files if file.parent == folder and file not in pictures]
+    if pictures:
+        alone.append(f"{folder / files[0].stem}.*.png ({len(pictures)} pictures)")
     return alone + [f"{place}/ ({inner.count(place)} files)" for place in dict.fromkeys(inner)]
 
 

@@ -37,6 +37,7 @@ FURTHER = {
     "xlsx": "Write <stem>.xlsx, too: every table, a sheet each (extra excel).",
     "csv": "Write <stem>_csv/, too: the same tables, a file each.",
     "html": "Write <stem>.html, too: one page with the model in 3-D, for any browser (extra html).",
+    "png": "Draw <stem>.*.png, too: isometric, displaced shapes, supports (extra plot).",
     "vtu": "Write <stem>.pvd and <stem>_vtu/, too, for ParaView (extra vtk).",
 }
 
