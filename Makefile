@@ -4,6 +4,7 @@
 #   make lint     ruff, mypy, fortitude
 #   make docs     the site of docs/, in build/docs (needs no network; warnings are errors)
 #   make stress   thousands of extreme scenes    (make stress N=20000; goes on where it stopped)
+#   make gallery  pictures of docs/gallery.md, by the commands that stand in it
 #   make bench    time, error and memory, peers, sweeps: tables and pictures in build/bench
 #                 (bench-quick, bench-docs, bench-million, bench-peers; OUT=folder ONLY="racks whole")
 BIN := .venv/bin
@@ -21,7 +22,7 @@ ONLY :=
 ARGS :=
 N := 20000
 
-.PHONY: demo test docs verification-record stress lint debug-test build clean
+.PHONY: demo test docs verification-record stress gallery lint debug-test build clean
 .PHONY: bench bench-quick bench-docs bench-million bench-peers
 
 demo: build
@@ -45,6 +46,9 @@ verification-record: build
 
 stress: build
 	@$(BIN)/python tests/stress/long.py $(N) build/stress
+
+gallery: build
+	@$(BIN)/python docs/gallery.py
 
 lint: $(READY)
 	@failed=0; for check in "ruff check ." "ruff format --check ." mypy "fortitude check fortran"; do \

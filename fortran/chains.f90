@@ -70,7 +70,7 @@ contains
       real(wp), intent(in) :: nodal(:, :)           !! (6, n_node) loads at all nodes
       real(wp), intent(out) :: v0_c(:, :), w_c(:, :)
 
-      real(wp) :: q(6), lever(3), ends(6, 2), v(6)
+      real(wp) :: q(6), q_low(6), lever(3), ends(6, 2), low(6, 2), v(6)
       integer(ip) :: c, j, e
 
       do c = 1_ip, size(v0_c, 2, ip)
@@ -81,12 +81,13 @@ contains
             cycle
          end if
          q(:) = 0.0_wp
+         q_low(:) = 0.0_wp
          lever(:) = 0.0_wp
          v0_c(:, c) = 0.0_wp
          do j = first(c + 1_ip), first(c) + 1_ip, -1_ip
             e = element(j) + 1_ip
-            if (j < first(c + 1_ip)) q = q + nodal(:, far(j) + 1_ip)
-            call member_forces(q, d(:, e), w(:, e), flip(j), ends)
+            if (j < first(c + 1_ip)) call add_dd(q, q_low, nodal(:, far(j) + 1_ip), 0.0_wp)
+            call member_forces(q, q_low, d(:, e), w(:, e), flip(j), ends, low)
             v = v0(:, e) + matmul(f(:, :, e), turn_to_local(axes(:, :, e), ends(:, 2)))
             if (flip(j) == 1_ip) lever = lever - d(:, e)
             v = turn_to_local(axes_c(:, :, c), at_tip(turn_to_global(axes(:, :, e), v), lever))
@@ -94,6 +95,7 @@ contains
             v0_c(:, c) = v0_c(:, c) + v
             if (flip(j) == 0_ip) lever = lever + d(:, e)
             q = -ends(:, 1_ip + flip(j))
+            q_low = -low(:, 1_ip + flip(j))
          end do
          w_c(:, c) = q
       end do
@@ -120,8 +122,8 @@ contains
       real(wp), intent(out) :: force(:, :, :)           !! (6, 2, n_elem) global, on the element
       real(wp), intent(inout) :: r(:, :)                !! (6, n_kept)
 
-      real(wp) :: q(6), v(6), miss(6), wrong, last, end_c(6, 2)
-      integer(ip) :: c, a, b, e, from, to, i
+      real(wp) :: q(6), q_low(6), v(6), miss(6), wrong, last, end_c(6, 2), low_c(6, 2)
+      integer(ip) :: c, a, b, from, to, i
 
       do c = 1_ip, size(base, kind=ip)
          from = first(c) + 1_ip
@@ -131,54 +133,65 @@ contains
          v = deformation(d_c(:, c), axes_c(:, :, c), u(:, a), low(:, a), u(:, b), low(:, b), &
             & v0_c(:, c))
          end_c = end_forces(k(:, :, c), axes_c(:, :, c), d_c(:, c), v, w_c(:, c))
+         low_c(:, :) = 0.0_wp
          if (from == to) then
             force(:, :, element(to) + 1_ip) = end_c
          else
-            q = end_c(:, 2) + turn_to_global(axes_c(:, :, c), bias(:, c))
+            q = end_c(:, 2)
+            q_low(:) = 0.0_wp
+            call add_dd(q, q_low, turn_to_global(axes_c(:, :, c), bias(:, c)), 0.0_wp)
             last = huge(1.0_wp)
             do i = 1_ip, most
                call sweep(element(from:to), flip(from:to), far(from:to), f, axes, d, v0, w, nodal, &
-                  & a, q, norm2(d_c(:, c)), u, low, force, miss, wrong)
+                  & a, q, q_low, norm2(d_c(:, c)), u, low, force, end_c, low_c, miss, wrong)
                if (wrong <= closed .or. .not. wrong < 0.5_wp*last) exit
                if (i == most) exit
                last = wrong
                miss = matmul(k(:, :, c), turn_to_local(axes_c(:, :, c), miss))
                bias(:, c) = bias(:, c) + miss
-               q = q + turn_to_global(axes_c(:, :, c), miss)
+               call add_dd(q, q_low, turn_to_global(axes_c(:, :, c), miss), 0.0_wp)
             end do
-            e = element(from) + 1_ip
-            end_c(:, 1) = force(:, 1_ip + flip(from), e)
-            e = element(to) + 1_ip
-            end_c(:, 2) = force(:, 2_ip - flip(to), e)
          end if
-         r(:, place(a) + 1_ip) = r(:, place(a) + 1_ip) - end_c(:, 1)
-         r(:, place(b) + 1_ip) = r(:, place(b) + 1_ip) - end_c(:, 2)
+         r(:, place(a) + 1_ip) = (r(:, place(a) + 1_ip) - end_c(:, 1)) - low_c(:, 1)
+         r(:, place(b) + 1_ip) = (r(:, place(b) + 1_ip) - end_c(:, 2)) - low_c(:, 2)
       end do
 
    end subroutine chain_end_forces
 
    !> Forces on the members from a to b for the tip force q, displacements inside, the misfit at
    !> the tip, relative: to what the members' deformations may move and turn the tip.
-   pure subroutine sweep(member, flip, far, f, axes, d, v0, w, nodal, a, q, reach, u, low, force, &
-         & miss, wrong)
+   !>
+   !> Forces are double-double on their way: loads inside may be many times what they leave over.
+   pure subroutine sweep(member, flip, far, f, axes, d, v0, w, nodal, a, q, q_low, reach, u, low, &
+         & force, end_c, low_c, miss, wrong)
       integer(ip), intent(in) :: member(:), flip(:), far(:)   !! of this chain
       real(wp), intent(in) :: f(:, :, :), axes(:, :, :), d(:, :), v0(:, :), w(:, :), nodal(:, :)
       integer(ip), intent(in) :: a              !! node at the base, 1-based
-      real(wp), intent(in) :: q(6), reach
+      real(wp), intent(in) :: q(6), q_low(6), reach
       real(wp), intent(inout) :: u(:, :), low(:, :), force(:, :, :)
+      real(wp), intent(out) :: end_c(6, 2), low_c(6, 2)   !! on the chain at its base and tip
       real(wp), intent(out) :: miss(6), wrong
 
-      real(wp) :: p(6), x(6), x_low(6), moved, turned
+      real(wp) :: p(6), p_low(6), ends(6, 2), ends_low(6, 2), rest(6, size(member))
+      real(wp) :: x(6), x_low(6), moved, turned
       integer(ip) :: j, m, n, last
 
       last = size(member, kind=ip)
       p = q
+      p_low = q_low
       do j = last, 1_ip, -1_ip
          m = member(j) + 1_ip
-         if (j < last) p = p + nodal(:, far(j) + 1_ip)
-         call member_forces(p, d(:, m), w(:, m), flip(j), force(:, :, m))
-         p = -force(:, 1_ip + flip(j), m)
+         if (j < last) call add_dd(p, p_low, nodal(:, far(j) + 1_ip), 0.0_wp)
+         call member_forces(p, p_low, d(:, m), w(:, m), flip(j), ends, ends_low)
+         force(:, :, m) = ends
+         rest(:, j) = ends_low(:, 2)
+         p = -ends(:, 1_ip + flip(j))
+         p_low = -ends_low(:, 1_ip + flip(j))
       end do
+      end_c(:, 1) = -p
+      low_c(:, 1) = -p_low
+      end_c(:, 2) = q
+      low_c(:, 2) = q_low
       x = u(:, a)
       x_low = low(:, a)
       moved = 0.0_wp
@@ -186,8 +199,8 @@ contains
       do j = 1_ip, last
          m = member(j) + 1_ip
          n = far(j) + 1_ip
-         p = v0(:, m) + matmul(f(:, :, m), turn_to_local(axes(:, :, m), force(:, 2, m)))
-         p = turn_to_global(axes(:, :, m), p)
+         p = turn_to_local(axes(:, :, m), force(:, 2, m)) + turn_to_local(axes(:, :, m), rest(:, j))
+         p = turn_to_global(axes(:, :, m), v0(:, m) + matmul(f(:, :, m), p))
          call step_over(p, d(:, m), flip(j), x, x_low)
          turned = max(turned, maxval(abs(p(4:6))))
          moved = max(moved, maxval(abs(p(1:3))))
@@ -205,22 +218,39 @@ contains
    end subroutine sweep
 
    !> Forces on a member at both ends for the force p on it at its far end.
-   pure subroutine member_forces(p, d, w, flip, ends)
-      real(wp), intent(in) :: p(6), d(3)
+   pure subroutine member_forces(p, p_low, d, w, flip, ends, low)
+      real(wp), intent(in) :: p(6), p_low(6), d(3)
       real(wp), intent(in) :: w(6)           !! load resultant: force, moment about end 1
       integer(ip), intent(in) :: flip
-      real(wp), intent(out) :: ends(6, 2)
+      real(wp), intent(out) :: ends(6, 2), low(6, 2)
 
-      if (flip == 0_ip) then
-         ends(:, 2) = p
-         ends(1:3, 1) = -p(1:3) - w(1:3)
-         ends(4:6, 1) = -p(4:6) - cross(d, p(1:3)) - w(4:6)
-      else
-         ends(:, 1) = p
-         ends(1:3, 2) = -p(1:3) - w(1:3)
-         ends(4:6, 2) = -p(4:6) - cross(d, ends(1:3, 2)) - w(4:6)
-      end if
+      integer(ip) :: near, far
+
+      near = 1_ip + flip
+      far = 3_ip - near
+      ends(:, far) = p
+      low(:, far) = p_low
+      ends(:, near) = -p
+      low(:, near) = -p_low
+      call add_dd(ends(:, near), low(:, near), -w, 0.0_wp)
+      call subtract_moment(d, ends(1:3, 2), low(1:3, 2), ends(4:6, near), low(4:6, near))
    end subroutine member_forces
+
+   !> (m, m_low) <- (m, m_low) - d x (force, force_low).
+   pure subroutine subtract_moment(d, force, force_low, m, m_low)
+      real(wp), intent(in) :: d(3), force(3), force_low(3)
+      real(wp), intent(inout) :: m(3), m_low(3)
+
+      integer, parameter :: next(3) = [2, 3, 1], after(3) = [3, 1, 2]
+      integer :: i, j, k
+
+      do i = 1, 3
+         j = next(i)
+         k = after(i)
+         call add_product(m(i), m_low(i), force(k), force_low(k), -d(j))
+         call add_product(m(i), m_low(i), force(j), force_low(j), d(k))
+      end do
+   end subroutine subtract_moment
 
    !> Displacement (double-double) from a member's near end to its far end.
    pure subroutine step_over(v, d, flip, x, x_low)

@@ -178,7 +178,7 @@ def test_files_of_other_programs_come_in_by_their_door(decks, tmp_path, monkeypa
     assert trunnion.batch([foreign], tmp_path / "out", permissive=True)["line"].skipped
 
 
-FORMATS = ("--csv", "--xlsx", "--vtu", "--h5", "--html")
+FORMATS = ("--csv", "--xlsx", "--vtu", "--h5", "--html", "--png")
 
 
 def test_every_further_report_is_that_of_a_single_run(decks, tmp_path):
@@ -199,7 +199,15 @@ def test_every_further_report_is_that_of_a_single_run(decks, tmp_path):
     )
     batch |= {name: one[name] for name in one if name.name == "summary.csv"}
     assert batch == one
-    assert {path.suffix for path in one} >= {".csv", ".xlsx", ".vtu", ".pvd", ".h5", ".html"}
+    assert {path.suffix for path in one} >= {
+        ".csv",
+        ".xlsx",
+        ".vtu",
+        ".pvd",
+        ".h5",
+        ".html",
+        ".png",
+    }
 
 
 def test_a_further_report_that_was_changed_is_made_again(decks, tmp_path):

@@ -78,10 +78,11 @@ def test_a_plain_run_imports_nothing_of_modes_spectra_and_hdf5(plain):
         (PLAIN.replace("OD=273.1 WALL=9.27", "NPS=10 SCH=40"), (), "fluids.piping"),
         (PLAIN, ("--h5",), "h5py"),
         (PLAIN, ("--xlsx",), "xlsxwriter"),
+        (PLAIN, ("--png",), "matplotlib.figure"),
         (PLAIN, ("--vtu",), "pyevtk.hl"),
         (PLAIN + "CASE OPE = W + T1\nMODES 2 ABOUT=OPE\n", (), "scipy.sparse"),
     ],
-    ids=["unit", "size", "hdf5", "excel", "vtk", "modes"],
+    ids=["unit", "size", "hdf5", "excel", "png", "vtk", "modes"],
 )
 def test_what_a_deck_needs_is_imported_and_no_more(tmp_path, plain, deck, options, needs):
     found = foreign(imported(tmp_path, deck, *options)) - foreign(plain)

@@ -2,11 +2,13 @@
 
 import math
 from dataclasses import replace
+from fractions import Fraction
 
 import numpy as np
 import pytest
 
 from trunnion.arrays import ARC, Loads, System
+from trunnion.deck.reader import read_text
 from trunnion.errors import ModelError
 from trunnion.loads import case_loads, case_warnings, load_sets
 from trunnion.loads.expansion import free_strain
@@ -254,3 +256,16 @@ def test_pipes_without_a_temperature_are_counted() -> None:
 def test_friction_factor_goes_through() -> None:
     made = model()
     assert case_loads(made, build_system(made), case("W", mux=0.5)).mux == 0.5
+
+
+def test_a_thin_wall_weighs_what_its_thickness_says():
+    """To the last digit: the difference of two circles would lose two."""
+    od, wall = 1.653211903262781, 0.0008825454642217002
+    deck = "MATERIAL S E=2e11 NU=0.3 ALPHA=12e-6 DENSITY=7850\n"
+    deck += f"SECTION P OD={od} WALL={wall}\nPIPE 10 20 DX=10\nANCHOR 10\nCASE A = W\n"
+    model = read_text(deck, "deck.inp")
+    system = build_system(model)
+    weight = -case_loads(model, system, model.cases[0]).dist[0, 1]
+    ring = Fraction(wall) * (Fraction(od) - Fraction(wall))
+    due = 7850 * Fraction(model.settings.g) * ring * Fraction(math.pi)
+    assert abs(Fraction(float(weight)) / due - 1) <= 1e-15

@@ -110,7 +110,7 @@ def test_one_changed_case_leaves_the_others():
 
 def test_a_renamed_node_is_found_out():
     """What an answer says of node 20 or 30 is not said of node 25 or 35."""
-    long = HEAD.replace("DX=5", "DX=80") + "SUPPORT 40 +Y MU=0.3\nCASE A = W\n"
+    long = HEAD.replace("DX=5", "DX=80") + "SUPPORT 40 +Y MU=0.3\nSUPPORT 40 RX RZ\nCASE A = W\n"
     session = trunnion.Session()
     session.solve(read(long))
     renamed = long.replace(" 20 ", " 25 ").replace(" 30 ", " 35 ")

@@ -37,6 +37,7 @@ FURTHER = {
     "xlsx": "Write <stem>.xlsx, too: every table, a sheet each (extra excel).",
     "csv": "Write <stem>_csv/, too: the same tables, a file each.",
     "html": "Write <stem>.html, too: one page with the model in 3-D, for any browser (extra html).",
+    "png": "Draw <stem>.*.png, too: isometric, displaced shapes, supports (extra plot).",
     "vtu": "Write <stem>.pvd and <stem>_vtu/, too, for ParaView (extra vtk).",
 }
 
@@ -117,15 +118,16 @@ def solve_model(model: "Model", spread: int = 0, watch: "Watch | None" = None) -
     return results
 
 
-def room() -> "Room":
-    """What the summary may take: the terminal, or a page without end where it is piped."""
+def room(below: int) -> "Room":
+    """What the summary may take: the terminal but for lines below it, or where it is piped, all."""
     from trunnion.report.screen import PIPE, Room
 
     if not sys.stdout.isatty():
         return PIPE
     from shutil import get_terminal_size
 
-    return Room(*get_terminal_size())
+    columns, lines = get_terminal_size()
+    return Room(columns, lines - below)
 
 
 def refuse_missing(also: Sequence[str]) -> None:

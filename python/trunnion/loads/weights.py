@@ -14,19 +14,19 @@ WATER = 1000.0  # contents of the hydrotest [kg/m3]
 RIGID_INSULATION = 1.75  # insulation of a flange or valve, in that of the pipe of its length
 
 
-def ring(outside: float, inside: float) -> float:
-    """Return the area between two diameters."""
-    return 0.25 * pi * (outside - inside) * (outside + inside)
+def ring(outside: float, thickness: float) -> float:
+    """Return the area of a ring, from its thickness: the difference of two circles is rounded."""
+    return pi * thickness * (outside - thickness)
 
 
 def line_masses(section: Section, material: Material) -> tuple[float, float, float, float]:
     """Mass per length [kg/m] of metal and lining, of insulation, of contents and of water."""
     bore = section.od - 2.0 * section.wall
-    free = bore - 2.0 * section.lining
-    metal = material.density * ring(section.od, bore) + section.lining_density * ring(bore, free)
+    metal = material.density * ring(section.od, section.wall)
+    metal += section.lining_density * ring(bore, section.lining)
     cover = section.od + 2.0 * section.insulation
-    insulation = section.insulation_density * ring(cover, section.od)
-    hollow = ring(free, 0.0)
+    insulation = section.insulation_density * ring(cover, section.insulation)
+    hollow = 0.25 * pi * (bore - 2.0 * section.lining) ** 2
     return metal, insulation, section.fluid * hollow, WATER * hollow
 
 

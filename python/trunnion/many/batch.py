@@ -184,7 +184,7 @@ def _sweep(folder: Path, decks: Sequence[Path], pid: int | None = None) -> None:
     left = f".*.{'*' if pid is None else pid}.tmp"
     for place in (folder, folder / FOLDER):
         for path in place.glob(left):
-            if pid is not None or path.name[1:].split(".tmp")[0].rsplit(".", 2)[0] in stems:
+            if pid is not None or any(path.name[1:].startswith(f"{stem}.") for stem in stems):
                 path.unlink(missing_ok=True)
     for path in folder.glob(f"*_*/{left}"):  # reports of many files have a folder of their own
         if pid is not None or path.parent.name.rsplit("_", 1)[0] in stems:

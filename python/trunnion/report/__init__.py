@@ -23,7 +23,7 @@ def write_reports(
 
     Parameters
     ----------
-    also : names of `report.outputs.OUTPUTS`: h5, xlsx, csv, vtu.
+    also : names of `report.outputs.OUTPUTS`: h5, xlsx, csv, vtu, png, html.
     watch : is told what is being written.
     """
     files = report_files(results, model, folder, stem, also=also, watch=watch)

@@ -25,11 +25,12 @@ OUTPUTS: Mapping[str, Output] = {
     "xlsx": Output("trunnion.report.excel", ("xlsxwriter",), "excel"),
     "csv": Output("trunnion.report.csv"),
     "vtu": Output("trunnion.report.vtu", ("pyevtk",), "vtk"),
+    "png": Output("trunnion.report.plots", ("matplotlib",), "plot"),
     "html": Output("trunnion.report.html", ("plotly", "jinja2"), "html"),
 }
 
 #: of files that a run writes: a deck of such a name could be overwritten by its reports
-SUFFIXES = (".out", ".json", ".h5", ".xlsx", ".csv", ".html", ".vtu", ".pvd")
+SUFFIXES = (".out", ".json", ".h5", ".xlsx", ".csv", ".html", ".png", ".vtu", ".pvd")
 
 
 def missing(name: str) -> str:

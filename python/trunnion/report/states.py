@@ -19,7 +19,7 @@ TOGETHER = "  ALL: friction of all words of the card together (FRICTION=RESULTAN
 
 
 @frozen(eq=False)
-class _Rows:
+class StateRows:
     """Rows of the table: contacts, sliders that rub on several of them, free snubbers.
 
     order : the rows in the order of their cards.  level : index into STATES.  turning : of
@@ -44,7 +44,7 @@ def state_table(case: CaseResult, units: ReportUnits) -> str:
     """Print one row a direction word, and one a friction element that rubs on several."""
     if case.gathered is not None:
         return ""
-    rows, system, u = _rows(case), case.system, solved(case).u
+    rows, system, u = state_rows(case), case.system, solved(case).u
     shown = [system.cards[i].kind in SHOWN for i in rows.card.tolist()]
     at = rows.order[np.array(shown, bool)[rows.order]]
     if not at.size:
@@ -71,7 +71,8 @@ def state_table(case: CaseResult, units: ReportUnits) -> str:
     return text + (TOGETHER if "ALL" in rows.word else "")
 
 
-def _rows(case: CaseResult) -> _Rows:
+def state_rows(case: CaseResult) -> StateRows:
+    """Gather what the supports of a case that has states do."""
     system, state = case.system, solved(case)
     contacts, sliders, snubbers = system.contacts, system.sliders, system.snubbers
     owner, level = slider_of(contacts, sliders), contact_levels(system, state)
@@ -90,7 +91,7 @@ def _rows(case: CaseResult) -> _Rows:
     still = np.where((owner >= 0)[:, None] & ~single[:, None], np.nan, friction[own])
     moved = _along(case, contacts)
     blank = np.full(more, np.nan)
-    return _Rows(
+    return StateRows(
         order=np.argsort(
             np.concatenate([contacts.card, contacts.card[last] + 0.5, snubbers.card]),
             kind="stable",

@@ -47,7 +47,34 @@ def solve_step(
     history: History,
     capacity: F8 | None = None,
 ) -> Solved:
-    """Solve one load step from its committed datum; `capacity` skips the search for a start."""
+    """Solve one load step from its committed datum; `capacity` skips the search for a start.
+
+    What moves away without bound is tried once more with room for a pipe that is only very soft.
+    """
+    start = point.copy()
+    solved = _solve_step(structure, point, sliding, forcing, history, capacity)
+    if solved.settled or "without bound" not in (solved.cause or ""):
+        return solved
+    structure.soft = True
+    try:
+        trial = start.copy()
+        again = _solve_step(structure, trial, sliding, forcing, history, capacity)
+    finally:
+        structure.soft = False
+    if not again.settled:
+        return solved
+    point.become(trial)
+    return again
+
+
+def _solve_step(
+    structure: Structure,
+    point: Point,
+    sliding: Sliding,
+    forcing: Forcing,
+    history: History,
+    capacity: F8 | None,
+) -> Solved:
     has_friction = bool((sliding.mu > 0.0).any())
     free = replace(sliding, capacity=np.zeros_like(sliding.mu), coupled=False)
     start = point.copy()

@@ -21,7 +21,8 @@ FULL_STEPS = 12  # tried before the line search takes over
 CALM = 8  # searched steps without a change of state, after which full ones may return
 TINY_PIVOT = 1e-14  # rcond below which the tangent counts as singular
 PROXIMAL = 1e-9  # of the largest element stiffness, on the diagonal of a singular tangent
-RUNAWAY = 1e3  # displacement over the size of the model that means a mechanism
+RUNAWAY = 1e3  # displacement over the size of the model that means a mechanism,
+SOFT = 1e12  # and that of a soft pipe with a sound factor, before its supports hold it
 
 
 @dataclass(slots=True, eq=False, repr=False)
@@ -65,14 +66,15 @@ def relax(
             return Outcome(response, r, residual, True)
         shift = tangent_factor(structure, response)
         p = structure.solve(r)
-        if not np.abs(p).max() < RUNAWAY * structure.size:
+        far = structure.size * (SOFT if structure.soft and not shift else RUNAWAY)
+        if not np.abs(p).max() < far:
             return Outcome(response, r, residual, False, runaway=True)
         step = 1.0
         if i >= full_steps or shift:
             push = kernels.inner(r, p)
             stiff = push - shift * kernels.inner(p, p)
             step = structure.search(point, sliding, forcing, p, (push, stiff))
-            if not step * np.abs(p).max() < RUNAWAY * structure.size:
+            if not step * np.abs(p).max() < far:
                 return Outcome(response, r, residual, False, runaway=True)
         r -= step * (r - shift * p)
         kernel_part = np.zeros_like(r)

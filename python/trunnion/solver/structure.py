@@ -64,6 +64,7 @@ class Structure:
         self.shifted = self.checked = False  # a singular tangent was met; it was looked into
         self.keep, self.parent, self.like = keep, parent, like
         self.extended: ExtendedFactor | None = None
+        self.soft = False  # a pipe may go far before its supports hold it
         if parent is None:
             self.members = whole_members(system) if whole else chain_members(system)
             if like is not None and not same_joints(self.members, like.members):

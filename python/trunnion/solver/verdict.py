@@ -84,7 +84,7 @@ def report_numbers(
     try:
         bias = structure.unbiased()
         r, every, end, response = structure.exact(point, law, forcing, bias)
-        best = (np.inf, np.inf)
+        before, best = None, (np.inf, np.inf)
         shift = 0.0
         for i in range(REFINEMENTS):
             shift = max(shift, _factor(structure, response))
@@ -95,10 +95,13 @@ def report_numbers(
             left = corrections(structure, p, point, response, then)
             # a reaction is a difference of displacements: it may lag behind them by one pass
             better = any(new < old for new, old in zip(left, best, strict=True))
+            if not better and before is not None:
+                last, every, end, response, then, p, left = before
+                point.become(last)
             fine = max(left) <= SHARP and unbalance(structure, r, response) <= BALANCED
             if not better or fine or i == REFINEMENTS - 1:
                 break
-            best = left
+            before, best = (point.copy(), every, end, response, then, p, left), left
             point.become(trial)
             r, every, end, response = structure.exact(point, law, forcing, bias)
         broken = judge(response, then, p, None, point.u).broken
