@@ -2,14 +2,16 @@
 
 Every finished scene is a line of FOLDER/scenes.jsonl, so a run that was stopped goes on where it
 stood.  FOLDER/stability.md is the table of docs/stability.md.  Half of the N scenes are
-manufactured, half random.
+manufactured, half random; every processor takes its share.
 """
 
 import json
+import os
 import sys
 import time
 from collections import Counter
 from dataclasses import asdict
+from multiprocessing import Pool
 from pathlib import Path
 
 from manufactured import manufactured
@@ -26,21 +28,19 @@ def main(n: int, folder: Path) -> int:
     log = folder / "scenes.jsonl"
     lines = log.read_text().splitlines() if log.exists() else []
     done = {(r["make"], r["seed"]): r for r in map(json.loads, filter(_whole, lines))}
+    every = [(("manufactured", "random")[i % 2], i // 2) for i in range(n)]
+    todo = [key for key in every if key not in done]
     began = time.monotonic()
-    with log.open("a") as out:
-        for i in range(n):
-            make, seed = ("manufactured", "random")[i % 2], i // 2
-            if (make, seed) not in done:
-                scene = manufactured(seed) if make == "manufactured" else random_scene(seed)
-                done[make, seed] = {"make": make, **asdict(outcome(scene))}
-                out.write(json.dumps(done[make, seed]) + "\n")
-                out.flush()
-            if (i + 1) % EVERY == 0:
+    with log.open("a") as out, Pool(len(os.sched_getaffinity(0))) as pool:
+        for i, end in enumerate(pool.imap(one, todo, chunksize=4), 1):
+            done[end["make"], end["seed"]] = end
+            out.write(json.dumps(end) + "\n")
+            out.flush()
+            if i % EVERY == 0:
                 wrong = sum(r["wrong"] for r in done.values())
-                print(
-                    f"{i + 1} scenes, {wrong} wrong, {time.monotonic() - began:.0f} s", flush=True
-                )
-    chosen = [r for (_, seed), r in done.items() if seed < (n + 1) // 2]
+                seconds = time.monotonic() - began
+                print(f"{i} of {len(todo)} scenes, {wrong} wrong, {seconds:.0f} s", flush=True)
+    chosen = [done[key] for key in every]
     text = tables(chosen)
     (folder / "stability.md").write_text(text)
     print(text)
@@ -48,6 +48,13 @@ def main(n: int, folder: Path) -> int:
         if r["wrong"]:
             print(f"WRONG {r['make']} seed {r['seed']} ({r['kind']}): {r['word']}, {r['detail']}")
     return 1 if any(r["wrong"] for r in chosen) else 0
+
+
+def one(key: tuple[str, int]) -> dict:
+    """How one scene ends."""
+    make, seed = key
+    scene = manufactured(seed) if make == "manufactured" else random_scene(seed)
+    return {"make": make, **asdict(outcome(scene))}
 
 
 def _whole(line: str) -> bool:

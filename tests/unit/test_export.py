@@ -16,12 +16,13 @@ from trunnion.arrays import ARC, TAPER, no_loads
 from trunnion.certificate.deformation import expected, tip_vector
 from trunnion.cli import main
 from trunnion.exports import build_job, files
-from trunnion.exports.agreement import agrees, differences, laws, table, unanswered
+from trunnion.exports.agreement import agrees, differences, laws, table, tried, unanswered
 from trunnion.exports.calculix.answer import _blocks
 from trunnion.exports.calculix.model import shear_coefficient
 from trunnion.exports.hinges import MOST, chain, flexibility, hinge_count
 from trunnion.exports.refusals import ExportError
 from trunnion.exports.scene import stand
+from trunnion.origin import LeftOut, Origin
 from trunnion.results.balance import load_sum
 from trunnion.system import build_system
 
@@ -303,6 +304,30 @@ def test_friction_without_an_answer_names_its_supports():
         build_job(model, trunnion.solve(model))
 
 
+def test_default_cases_are_cases():
+    """A deck that names none has SUS, OPE, EXP and, about OPE, one of each acceleration."""
+    model = trunnion.Model()
+    model.material("M", E=2e11, ALPHA=1e-5, DENSITY=7850)
+    model.section("P", OD=0.2, WALL=0.01)
+    model.operate(T1=170)
+    model.anchor("A")
+    model.pipe("A", "B", DX=3)
+    model.support("B", "+Y")
+    model.acceleration("U1", X=0.2)
+    job = build_job(model, trunnion.solve(model))
+    assert [case.name for case in job.scene.cases] == ["SUS", "OPE", "BY_U1"]
+    assert job.notes == ("BY_U1: linear, on the contacts that OPE left closed",)
+
+
+def test_calculix_holds_every_contact_so_it_needs_an_answer():
+    model = trunnion.read(ROOT / "models/b313_s302.inp")
+    results = trunnion.solve(model)
+    results["SUS"].state, results["SUS"].converged = None, False
+    assert len(build_job(model, results, ["SUS"]).scene.cases) == 1  # OpenSees finds contacts
+    with pytest.raises(ExportError, match=r"no answer whose contacts could be held at 20 \+Y, 50"):
+        build_job(model, results, ["SUS"], program="calculix")
+
+
 @pytest.mark.parametrize(
     ("name", "said"), [("OPEN", "OPEN is not a case"), ("EXP", "COMB EXP: no case")]
 )
@@ -319,6 +344,15 @@ def test_chosen_cases_alone_are_written(tmp_path, capsys):
     (path,) = tmp_path.iterdir()
     assert path.name == "b313_s302_opensees.py"
     assert list(data_of(path.read_bytes())["cases"]) == ["OPE"]
+
+
+def test_what_a_foreign_file_lost_is_said_again():
+    model = trunnion.read(ROOT / "models/pipe_10m.inp")
+    lost = LeftOut("element 30-40", "a nozzle", "line.cii:210")
+    model.origin = Origin("line.cii", "CAESAR II neutral file, version 11.0", (lost,))
+    job = build_job(model, trunnion.solve(model))
+    assert job.notes == ("LEFT OUT: element 30-40: a nozzle (line.cii:210)",)
+    assert "LEFT OUT: element 30-40" in files(job, "calculix", "x")["x_calculix.inp"].decode()
 
 
 # ------------------------------------------------------------------ comparison
@@ -366,6 +400,20 @@ def test_without_an_answer_nothing_is_confirmed():
     assert unanswered(report(), other) == {"OPE": "no"}
     assert not agrees([], {}, 1e-6)
     assert unanswered({"cases": {}}, report())["OPE"].startswith("there is no such case")
+
+
+@pytest.mark.parametrize(
+    ("friction", "said"),
+    [
+        ({"rest": 1e-9, "kept": 1e-12}, "find the same answer from rest (1.0e-09)"),
+        ({"rest": None, "kept": 1e-12}, "find no answer from rest, begun at this one keep it"),
+        ({"rest": 0.2, "kept": None}, "find another (2.0e-01)"),
+        ({"not_tried": "45 GUIDE"}, "not used (45 GUIDE)"),
+    ],
+)
+def test_what_friction_elements_make_of_an_answer_is_said(friction, said):
+    assert said in tried(report(friction=friction), 1e-6)["OPE"]
+    assert tried(report(), 1e-6) == {}
 
 
 def test_a_law_that_fails_is_no_agreement():

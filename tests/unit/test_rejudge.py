@@ -220,6 +220,16 @@ def test_what_the_file_does_not_have_is_not_judged(home, written, capsys):
     assert silent == ["EQN", "RSP", "OCC", "CYCLE HEAT", "modes", "envelope"]
 
 
+def test_other_answers_are_not_judged(home, capsys):
+    assert leave("run", MODELS / "strut_three.inp", "-o", home, "--spread", 3) == 0
+    capsys.readouterr()
+    stored = home / "strut_three.json"
+    assert leave("verify", "--certificate", "--deck", MODELS / "strut_three.inp", stored) == 0
+    said = capsys.readouterr().out
+    assert "PUSH: holds: " in said
+    assert "spread: not judged: " in said
+
+
 @pytest.mark.parametrize("deck", sorted(path.stem for path in MODELS.glob("*.inp")))
 def test_every_model_is_judged_and_holds(tmp_path, deck, capsys):
     source = MODELS / f"{deck}.inp"

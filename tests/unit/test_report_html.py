@@ -1,6 +1,7 @@
 """The HTML report in a real browser, and what of it needs none."""
 
 import json
+import re
 
 import numpy as np
 import pytest
@@ -166,3 +167,225 @@ def test_story_ends_in_the_states_of_the_answer(page):
     assert len(case.passes) == len(case.history) + 1
     held = np.unique(case.system.contacts.card)
     np.testing.assert_array_equal(course(case).level[-1, held], card_levels(case)[held])
+
+
+# ------------------------------------------------------------------ bodies, hover, slider, paper
+PARTS = """\
+TITLE    Valve, flanges, joint and reducer, Z up
+UNITS    mm kN bar C
+DEFAULT  MU=0.3 UP=Z
+MATERIAL STEEL  E=203GPa NU=0.3 ALPHA=12e-6 DENSITY=7850
+SECTION  P8     OD=219.1 WALL=8.18
+SECTION  P10    OD=273.1 WALL=9.27
+OPERATE  T1=150 P1=8 TREF=20
+ANCHOR   10
+FLANGE   10 20  DX=110 WEIGHT=0.5
+VALVE    20 30  DX=700 WEIGHT=4
+PIPE     30 40  DX=2000
+SUPPORT  40     +Z GUIDE GAP=3
+JOINT    40 50  DX=500 AXIAL=180N/mm LATERAL=95N/mm AREA=62000
+PIPE     50 60  DX=1500
+BEND     60     R=381
+PIPE     60 70  DY=2500
+SUPPORT  70     +Z
+SNUBBER  70     X
+REDUCER  70 80  DY=400 TO=P8
+SECTION  P8
+PIPE     80 90  DY=1200
+ANCHOR   90
+CASE SUS = W + P1
+CASE OPE = W + P1 + T1
+CASE EQX = U(0.2,0,0) ABOUT=OPE
+"""
+
+
+@pytest.fixture(scope="module")
+def parts(tmp_path_factory):
+    home = tmp_path_factory.mktemp("parts")
+    (home / "parts.inp").write_text(PARTS)
+    with pytest.raises(SystemExit) as stop:
+        main(["run", str(home / "parts.inp"), "-o", str(home), "--html"])
+    assert stop.value.code == 0
+    return home / "parts.html"
+
+
+@pytest.fixture(scope="module")
+def parts_browser(parts):
+    with chromium() as driver:
+        opened(driver, parts, "OPE move")
+        yield driver
+
+
+def drawn_radii(page, kind):
+    """Radii of the rings of the element of a type, and the places of the rings along it."""
+    from base64 import b64decode
+
+    text = page.read_text(encoding="utf-8")
+    data = text.split('<script type="application/json" id="data">')[1].split("</script>")[0]
+    scene = json.loads(data)["scene"]
+    at = np.frombuffer(b64decode(scene["at"]), "<f4").reshape(-1, 3)
+    radius = np.frombuffer(b64decode(scene["radius"]), "<f4")
+    e = scene["type"].index(kind)
+    rings = slice(*scene["first"][e : e + 2])
+    start = at[rings][0]
+    return radius[rings], np.linalg.norm(at[rings] - start, axis=1)
+
+
+def test_a_valve_is_two_cones_and_a_flange_a_disc_on_the_pipe_they_stand_in(parts):
+    pipe = 0.5 * 0.2731
+    radii, along = drawn_radii(parts, "valve")
+    assert radii[0] == radii[-1] == pytest.approx(pipe, rel=1e-6)
+    neck = int(radii.argmin())
+    assert along[neck] == pytest.approx(0.35, abs=1e-6)  # half way of 700 mm
+    assert radii[neck] < 0.5 * pipe < pipe < radii.max()
+    np.testing.assert_allclose(radii, radii[::-1])
+    disc, along = drawn_radii(parts, "flange")
+    assert disc.max() == radii.max()
+    assert np.ptp(along[disc == disc.max()]) > 0.7 * 0.110
+
+
+def test_a_joint_has_waves_and_a_reducer_is_a_cone(parts):
+    radii, along = drawn_radii(parts, "joint")
+    pipe = 0.5 * 0.2731
+    crests = (np.diff(np.sign(np.diff(radii))) < 0).sum()
+    assert crests == 6
+    assert radii[0] == radii[-1] == pytest.approx(pipe, rel=1e-6)
+    assert along[-1] == pytest.approx(0.5, rel=1e-6)
+    cone, _ = drawn_radii(parts, "reducer")
+    assert (np.diff(cone) < 0.0).all()
+    assert cone[[0, -1]] == pytest.approx([pipe, 0.5 * 0.2191], rel=1e-6)
+
+
+def test_pointing_at_the_pipe_shows_the_numbers_there(parts, parts_browser):
+    """A real mouse over node 50, where joint 40-50 and pipe 50-60N meet."""
+    from selenium.webdriver import ActionChains
+    from selenium.webdriver.common.by import By
+    from selenium.webdriver.support.wait import WebDriverWait
+
+    browser = parts_browser
+    x, y, wide, high, texts = browser.execute_script(
+        """
+        const stage = document.getElementById('scene'), scene = stage._fullLayout.scene._scene;
+        const marks = stage.data.find((t) => t.mode === 'markers' && t.text[0].includes('node '));
+        const i = marks.text.findIndex((t) => t.includes('node 50<'));
+        const p = scene.glplot.cameraParams, times = (m, v) => [0, 1, 2, 3].map((r) =>
+            m[r] * v[0] + m[4 + r] * v[1] + m[8 + r] * v[2] + m[12 + r] * v[3]);
+        const s = scene.dataScale, at = [marks.x[i] * s[0], marks.y[i] * s[1], marks.z[i] * s[2]];
+        const c = times(p.projection, times(p.view, times(p.model, [...at, 1])));
+        const box = stage.getBoundingClientRect();
+        return [box.width * 0.5 * (1 + c[0] / c[3]), box.height * 0.5 * (1 - c[1] / c[3]),
+            box.width, box.height, [...new Set(stage.data[0].text)]];"""
+    )
+    host = browser.find_element(By.ID, "scene")
+    shift = round(x - 0.5 * wide), round(y - 0.5 * high)
+    ActionChains(browser).move_to_element_with_offset(host, shift[0] - 4, shift[1]).perform()
+    ActionChains(browser).move_to_element_with_offset(host, *shift).perform()
+    shown = WebDriverWait(browser, 60).until(
+        lambda d: "".join(e.text for e in d.find_elements(By.CSS_SELECTOR, "g.hovertext"))
+    )
+
+    def plain(text):
+        return re.sub(r"<[^>]+>|\s", "", text).replace("\u2212", "-")
+
+    there = [text for text in texts if re.match("<b>(node 50|joint 40-50|pipe 50-60N)<", text)]
+    assert plain(shown) in [plain(text) for text in there]
+    (node,) = [text for text in texts if text.startswith("<b>node 50<")]
+    row = json.loads(parts.with_suffix(".json").read_text())["cases"]["OPE"]["nodes"]["50"]
+    moves = [float(word) for word in node.split("moves ")[1].split(" mm")[0].split()]
+    turns = [float(word) for word in node.split("turns ")[1].split(" deg")[0].split()]
+    np.testing.assert_allclose(moves, 1e3 * np.array(row[:3]), rtol=1e-4, atol=1e-12)
+    np.testing.assert_allclose(turns, np.degrees(row[3:]), rtol=1e-4, atol=1e-12)
+
+
+def test_hover_texts_of_supports_are_their_loads(parts, parts_browser):
+    script = """
+        const t = document.getElementById('scene').data.find((t) => t.type === 'mesh3d' &&
+            t.facecolor && t.text.some((x) => x.includes('load on the restraint')));
+        return [...new Set(t.text)];"""
+    texts = parts_browser.execute_script(script)
+    case = json.loads(parts.with_suffix(".json").read_text())["cases"]["OPE"]
+    for support, text in zip(case["supports"], texts, strict=True):
+        assert support["name"] in text
+        assert f"<br>{support['state']}<br>" in text
+        for value in support["force"]:
+            shown = float(f"{-1e-3 * value:.5g}")
+            assert abs(shown) < 5e-13 or f"{shown:g}" in text or repr(shown) in text
+
+
+def test_the_slider_moves_the_pipe_and_says_by_how_much(parts_browser):
+    browser = parts_browser
+    seen = {}
+    for value in ("0", "50", "100"):
+        browser.execute_script(
+            "const s = document.getElementById('scale'); s.value = arguments[0];"
+            "document.getElementById('scene').dataset.drawn = '';"
+            "s.dispatchEvent(new Event('input'));",
+            value,
+        )
+        until_drawn(browser, "OPE move")
+        factor = browser.execute_script("return document.getElementById('factor').textContent")
+        seen[factor] = picture(browser)
+    assert next(iter(seen)) == "\u00d7 0"
+    assert len(set(seen.values())) == 3
+    factors = [float(text[2:]) for text in seen]
+    assert factors == sorted(factors)
+
+
+def test_paper_has_every_table_and_no_buttons(parts_browser):
+    browser = parts_browser
+    pdf = browser.execute_cdp_cmd(
+        "Page.printToPDF", {"preferCSSPageSize": True, "printBackground": True}
+    )
+    assert len(pdf["data"]) > 20_000
+    browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
+    try:
+        browser.execute_script("window.dispatchEvent(new Event('beforeprint'))")
+        hidden, tables, high, caption = browser.execute_script(
+            """
+            const shows = (e) => getComputedStyle(e).display !== 'none';
+            return [[...document.querySelectorAll('.tabs, .bar, #controls button, .hint')]
+                    .filter(shows).length,
+                [...document.querySelectorAll('[data-table]')].map((t) =>
+                    [t.dataset.table, shows(t) && t.getBoundingClientRect().height > 20]),
+                document.querySelector('.stage').getBoundingClientRect().bottom -
+                    document.querySelector('header').getBoundingClientRect().top,
+                document.getElementById('caption').innerText];"""
+        )
+    finally:
+        browser.execute_script("window.dispatchEvent(new Event('afterprint'))")
+        browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
+    assert hidden == 0
+    assert {"restraints", "displacements", "certificate"} <= {name for name, _ in tables}
+    assert all(seen for _, seen in tables), tables
+    page = 186 / 273 * 1260  # a landscape A4 less its margins, as wide as the page is laid out
+    assert 300 < high < page
+    assert caption.startswith("OPE = W + P1 + T1: displacement; movements \u00d7 ")
+
+
+def test_the_whole_outline_stands_in_the_middle_and_in_sight(parts_browser):
+    found = parts_browser.execute_script(
+        """
+        const stage = document.getElementById('scene'), scene = stage._fullLayout.scene._scene;
+        const marks = stage.data.find((t) => t.mode === 'markers' && t.text[0].includes('node '));
+        const p = scene.glplot.cameraParams, s = scene.dataScale, times = (m, v) =>
+            [0, 1, 2, 3].map((r) => m[r] * v[0] + m[4 + r] * v[1] + m[8 + r] * v[2] + m[12 + r]);
+        return marks.x.map((_, i) => {
+            const v = [marks.x[i] * s[0], marks.y[i] * s[1], marks.z[i] * s[2]];
+            return times(p.projection, times(p.view, times(p.model, v))).slice(0, 2); });"""
+    )
+    found = np.array(found)
+    assert np.abs(found).max() < 0.95
+    assert np.abs(0.5 * (found.max(axis=0) + found.min(axis=0))).max() < 0.1
+    assert np.ptp(found, axis=0).max() > 1.0
+
+
+def test_a_picture_of_many_elements_has_few_points_on_each():
+    from types import SimpleNamespace
+
+    from trunnion.report.html.scene import DRAWN, POINTS, _parts
+
+    for n_elem, n_case in ((5, 3), (200, 3), (5000, 1), (5000, 12), (100_000, 1)):
+        parts = _parts(SimpleNamespace(kind=np.zeros(n_elem)), n_case)
+        points = (parts + 1) * n_elem
+        assert 1 <= parts <= 8
+        assert parts == 1 or (points <= DRAWN and points * n_case <= POINTS)

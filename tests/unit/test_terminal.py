@@ -70,7 +70,7 @@ def words(session):
 
 
 # ------------------------------------------------------------------ the summary
-@pytest.mark.parametrize("size", [(80, 24), (120, 40), (60, 24), (40, 20)])
+@pytest.mark.parametrize("size", [(80, 24), (120, 40), (60, 24), (44, 24)])
 @pytest.mark.parametrize(("cases", "supports"), [(3, 4), (40, 4), (3, 300)])
 def test_the_summary_fits_the_screen(tmp_path, size, cases, supports):
     deck = line(tmp_path, cases, supports)
@@ -82,6 +82,14 @@ def test_the_summary_fits_the_screen(tmp_path, size, cases, supports):
     said = words(found)
     assert re.search(rf"certificate all {cases} cases are certified, worst", said)
     assert re.search(r"worst support \S+ .* carries [0-9.]+ kN in C", said)
+
+
+def test_a_small_terminal_holds_the_summary_with_messages_of_one_line(tmp_path):
+    shutil.copy(MODELS / "snubber_line.inp", tmp_path)
+    found = on_terminal(["run", "snubber_line.inp", "-o", "o"], size=(40, 16), cwd=tmp_path)
+    assert len(found.screen) < 16
+    assert max(map(len, found.screen)) <= 40
+    assert sum(row.lstrip().startswith("warning: ") for row in found.screen) >= 2
 
 
 def test_a_narrow_terminal_keeps_cases_status_and_load(tmp_path):

@@ -16,7 +16,7 @@ import pytest
 
 import trunnion
 from trunnion.exports import build_job, files
-from trunnion.exports.agreement import TOLERANCE, agrees, differences, laws, unanswered
+from trunnion.exports.agreement import TOLERANCE, agrees, differences, laws, tried, unanswered
 from trunnion.exports.confirm import TOLERANCES, answer
 from trunnion.report.json import json_report
 
@@ -75,6 +75,22 @@ def test_opensees_agrees(deck, folder):
         assert value <= TOLERANCE, where
 
 
+@pytest.mark.parametrize("deck", ["sliding_line", "cycle_line", "rack_50", "snubber_line"])
+def test_friction_elements_of_opensees_find_the_answer_from_rest(deck, folder):
+    pytest.importorskip("openseespy", reason="extra opensees")
+    found, _ = confirmed(f"models/{deck}.inp", "opensees", folder)
+    case = {"rack_50": "FRIC1"}.get(deck, "OPE")
+    assert found["cases"][case]["friction"]["rest"] <= TOLERANCE
+    assert "find the same answer" in tried(found, TOLERANCE)[case]
+
+
+@pytest.mark.parametrize(("deck", "case"), [("hot_header", "OPE"), ("rack_200", "FRIC1")])
+def test_friction_elements_of_opensees_keep_the_answer(deck, case, folder):
+    pytest.importorskip("openseespy", reason="extra opensees")
+    found, _ = confirmed(f"models/{deck}.inp", "opensees", folder)
+    assert found["cases"][case]["friction"]["kept"] <= TOLERANCE
+
+
 @pytest.mark.skipif(shutil.which("ccx") is None, reason="ccx is not installed")
 @pytest.mark.parametrize("deck", STATED)
 def test_calculix_agrees(deck, folder):
@@ -100,12 +116,15 @@ def test_the_held_states_are_judged(program, folder):
     results = trunnion.solve(model)
     case = results["FRIC1"]
     case.state.friction *= 1.001
-    job = build_job(model, results, ["FRIC1"])
+    job = build_job(model, results, ["FRIC1"], program=program)
     for name, content in files(job, program, "pushed").items():
         (folder / name).write_bytes(content)
-    value, where = laws(answer(job, program, folder, "pushed"))["FRIC1"]
+    found = answer(job, program, folder, "pushed")
+    value, where = laws(found)["FRIC1"]
     assert value > 1e-4
     assert where.startswith("friction of ")
+    if program == "opensees":  # whose own elements leave that answer
+        assert found["cases"]["FRIC1"]["friction"]["kept"] > 1e-6
 
 
 @pytest.mark.parametrize("member", ["nodes", "supports", "elements"])

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from trunnion.commands.export import CASES, LEAVE_OUT, PROGRAMS, exported
+from trunnion.commands.export import CASES, LEAVE_OUT, PROGRAMS, exported, said
 from trunnion.commands.shared import (
     DECK,
     FAILED,
@@ -54,62 +54,68 @@ def confirm(
     """
     from tempfile import TemporaryDirectory
 
-    from trunnion.exports.confirm import missing
+    from trunnion.exports.confirm import NAMES, TOLERANCES, ProgramError, missing
+    from trunnion.report.progress import shown
 
     lacking = missing(program)
     if lacking:
         raise InputError(lacking)
     if folder is not None:
         refuse_unwritable(folder)
-    model, results, job = exported(deck, cases, permissive=permissive, options=options)
-    with TemporaryDirectory() as scratch:
-        place = folder or Path(scratch)
-        return _compare(model, results, job, program, place, deck.stem, allow)
+    with shown(f"reading {deck.name}") as watch, TemporaryDirectory() as scratch:
+        model, results, job = exported(
+            deck, program, cases, permissive=permissive, options=options, watch=watch
+        )
+        if watch is not None:
+            watch.turn(f"{NAMES[program]} is solving")
+        both: tuple[dict[str, Any], dict[str, Any]] | str
+        try:
+            both = _both(model, results, job, program, folder or Path(scratch), deck.stem)
+        except ProgramError as error:
+            both = str(error)
+    for line in said(job):
+        say(line)
+    if isinstance(both, str):
+        say(both)
+        return FAILED
+    allowed = TOLERANCES[program] if allow is None else allow
+    if _judge(*both, NAMES[program], allowed):
+        return SOLVED
+    for case in job.scene.cases:
+        for warning in case.warnings:
+            say(f"{case.name}: {warning}")
+    return FAILED
 
 
-def _compare(
-    model: "Model",
-    results: "Results",
-    job: "Job",
-    program: str,
-    place: Path,
-    stem: str,
-    allow: float | None,
-) -> int:
-    """Run the other program and print how far it is away."""
+def _both(
+    model: "Model", results: "Results", job: "Job", program: str, place: Path, stem: str
+) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Answers of Trunnion and of the other program, whose files go to `place`."""
     import json
 
     from trunnion.exports import files
-    from trunnion.exports.confirm import NAMES, TOLERANCES, ProgramError, answer
+    from trunnion.exports.confirm import answer
     from trunnion.report.atomic import write_files
     from trunnion.report.json import json_report
 
-    allowed = TOLERANCES[program] if allow is None else allow
     made = files(job, program, stem)
     write_files({place / name: content for name, content in made.items()})
     own: dict[str, Any] = json.loads(json_report(results, model))
-    for text in (*job.notes, *(f"LEFT OUT: {problem}" for problem in job.left_out)):
-        say(text)
-    try:
-        found = answer(job, program, place, stem)
-    except ProgramError as error:
-        say(str(error))
-        return FAILED
-    good = _judge(own, found, NAMES[program], allowed)
-    for case in () if good else job.scene.cases:
-        for warning in case.warnings:
-            say(f"{case.name}: {warning}")
-    return SOLVED if good else FAILED
+    return own, answer(job, program, place, stem)
 
 
 def _judge(own: dict[str, Any], found: dict[str, Any], name: str, allowed: float) -> bool:
-    from trunnion.exports.agreement import agrees, differences, laws, table, unanswered
+    """Print how far the other program is away; tell whether that is near enough."""
+    from trunnion.exports.agreement import agrees, differences, laws, table, tried, unanswered
 
     rows, held, without = differences(own, found), laws(found), unanswered(own, found)
     if rows:
         say(table(rows, name, allowed))
     for case, (value, where) in held.items():
-        say(f"{case}: laws of the held contacts hold to {value:.1e}" + f" ({where})" * bool(where))
+        place = f" ({where})" if value else ""
+        say(f"{case}: laws of the held contacts hold to {value:.1e}{place}")
+    for case, what in tried(found, allowed).items():
+        say(f"{case}: friction elements of {name} {what}")
     for case, why in without.items():
         say(f"{case}: not confirmed: {why}")
     good = agrees(rows, held, allowed) and not without

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from trunnion.exports import Job
     from trunnion.formats.options import Options
     from trunnion.model import Model
+    from trunnion.watch import Watch
 
 PROGRAMS = ("opensees", "calculix")
 CASES = click.option(
@@ -51,19 +52,29 @@ def export(
     """Solve DECK and write it as a job for another program."""
     from trunnion.exports import files
     from trunnion.report.atomic import write_files
+    from trunnion.report.progress import shown
 
     refuse_unwritable(folder)
-    _, _, job = exported(deck, cases, permissive=permissive, options=options)
-    made = files(job, program, deck.stem)
+    with shown(f"reading {deck.name}") as watch:
+        _, _, job = exported(
+            deck, program, cases, permissive=permissive, options=options, watch=watch
+        )
+        made = files(job, program, deck.stem)
     write_files({folder / name: content for name, content in made.items()})
-    for text in (*job.notes, *(f"LEFT OUT: {problem}" for problem in job.left_out)):
-        say(text)
+    for line in said(job):
+        say(line)
     say("wrote " + "  ".join(str(folder / name) for name in made))
     return SOLVED
 
 
 def exported(
-    deck: Path, cases: tuple[str, ...], *, permissive: bool, options: "Options | None"
+    deck: Path,
+    program: str,
+    cases: tuple[str, ...],
+    *,
+    permissive: bool,
+    options: "Options | None",
+    watch: "Watch | None",
 ) -> "tuple[Model, Results, Job]":
     """Read and solve a deck, and take it apart for another program."""
     from trunnion.exports import build_job
@@ -71,8 +82,14 @@ def exported(
 
     foreign = deck.suffix.lower() in FOREIGN
     model = read_model(deck, permissive=permissive and foreign, options=options)
-    results = solve_model(model)
+    results = solve_model(model, watch=watch)
     try:
-        return model, results, build_job(model, results, cases, permissive=permissive)
+        job = build_job(model, results, cases, program=program, permissive=permissive)
     except ExportError as error:
         raise InputError(str(error)) from None
+    return model, results, job
+
+
+def said(job: "Job") -> list[str]:
+    """What a reader must know of a job."""
+    return [*job.notes, *(f"LEFT OUT: {problem}" for problem in job.left_out)]

@@ -118,15 +118,16 @@ def solve_model(model: "Model", spread: int = 0, watch: "Watch | None" = None) -
     return results
 
 
-def room() -> "Room":
-    """What the summary may take: the terminal, or a page without end where it is piped."""
+def room(below: int) -> "Room":
+    """What the summary may take: the terminal but for lines below it, or where it is piped, all."""
     from trunnion.report.screen import PIPE, Room
 
     if not sys.stdout.isatty():
         return PIPE
     from shutil import get_terminal_size
 
-    return Room(*get_terminal_size())
+    columns, lines = get_terminal_size()
+    return Room(columns, lines - below)
 
 
 def refuse_missing(also: Sequence[str]) -> None:

@@ -175,6 +175,9 @@ def _tables(run: "Run", report: Stored, choices: tuple[HangerChoice, ...]) -> li
         again["hangers"] = selection_entries(choices)
     if run.model.winds:
         again["winds"] = wind_entries(run.model, run.system)
+    if report.get("spread"):
+        said = "the file has their ranges, not their numbers: search again to confirm them"
+        verdicts.append(Verdict("spread", None, said))
     for name, text in again.items():
         place = first(json.loads(text), report.get(name), name)
         fault = f"{place} is not what the other numbers give" if place else ""

@@ -9,12 +9,13 @@ from importlib import import_module
 
 import numpy as np
 
-from trunnion.arrays import F8, SPRING, Results, System
+from trunnion.arrays import F8, SPRING, CaseResult, Results, System
+from trunnion.cases.default_cases import with_cases
 from trunnion.errors import Problem
 from trunnion.exports.refusals import ExportError, chosen_cases
 from trunnion.exports.scene import Scene, build_scene, stand
 from trunnion.frozen import frozen
-from trunnion.model import Model
+from trunnion.model import Case, Model
 
 FORMATS: Mapping[str, str] = {
     "opensees": "trunnion.exports.opensees",
@@ -34,21 +35,28 @@ class Job:
 
 
 def build_job(
-    model: Model, results: Results, cases: Sequence[str] = (), *, permissive: bool = False
+    model: Model,
+    results: Results,
+    cases: Sequence[str] = (),
+    *,
+    program: str = "opensees",
+    permissive: bool = False,
 ) -> Job:
-    """Choose the cases and say what of them is carried over.
+    """Choose the cases for a program and say what of them is carried over.
 
     Raises
     ------
     ExportError
         Cases that cannot be written, unless `permissive` leaves them out; or none is left.
     """
-    chosen, problems = chosen_cases(model, results, cases)
+    model = with_cases(model)
+    chosen, problems = chosen_cases(model, results, cases, finds=program == "opensees")
     if problems and not (permissive and chosen):
         raise ExportError(problems)
     if not chosen:
         raise ExportError([Problem("cases", "there is no case to write")])
-    scene = build_scene(results.system, _moduli(model, results.system), chosen)
+    steps = {case.name: _steps(model, case) for case in chosen}
+    scene = build_scene(results.system, _moduli(model, results.system), chosen, steps)
     source = model.file.name if model.file else model.origin.file if model.origin else "a model"
     return Job(scene, results.title, source, tuple(_notes(model, scene)), tuple(problems))
 
@@ -57,6 +65,19 @@ def files(job: Job, program: str, stem: str) -> dict[str, bytes]:
     """Write a job for one of `FORMATS`: contents by name of the file."""
     make: Callable[[Job, str], dict[str, bytes]] = import_module(FORMATS[program]).files
     return make(job, stem)
+
+
+def _steps(model: Model, case: CaseResult) -> int:
+    """Steps in which a case loads the pipe where it lies; 0 where it begins after another.
+
+    So it is 0 where steps were cut, at events or because one step found no answer.
+    """
+    card = next((c for c in model.cases if isinstance(c, Case) and c.name == case.name), None)
+    steps = 1 if card is None else card.steps
+    events = card.events if card is not None and card.events is not None else model.settings.events
+    later = card is not None and card.start is not None
+    cut = steps == 1 and case.state is not None and bool(case.state.datum.any())
+    return 0 if events or later or cut else steps
 
 
 def _moduli(model: Model, system: System) -> tuple[F8, F8]:
@@ -70,7 +91,7 @@ def _moduli(model: Model, system: System) -> tuple[F8, F8]:
 
 def _notes(model: Model, scene: Scene) -> list[str]:
     """What a reader must know of the cases."""
-    notes = []
+    notes = [] if model.origin is None else [f"LEFT OUT: {x}" for x in model.origin.left_out]
     for case in scene.cases:
         found = stand(case)
         modes = [rub.mode for rub in found.rubs]

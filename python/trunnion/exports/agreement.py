@@ -109,6 +109,26 @@ def laws(other: Mapping[str, Any]) -> dict[str, tuple[float, str]]:
     }
 
 
+def tried(other: Mapping[str, Any], tolerance: float) -> dict[str, str]:
+    """Say in each case what the other program's own friction elements make of the answer."""
+    found = {}
+    for name, case in other["cases"].items():
+        friction = case.get("friction")
+        if friction is None:
+            continue
+        if "not_tried" in friction:
+            found[name] = f"not used ({friction['not_tried']})"
+            continue
+        rest, kept = friction["rest"], friction["kept"]
+        if rest is not None and rest <= tolerance:
+            found[name] = f"find the same answer from rest ({rest:.1e})"
+            continue
+        found[name] = "find no answer from rest" if rest is None else f"find another ({rest:.1e})"
+        if kept is not None:
+            found[name] += f", begun at this one keep it ({kept:.1e})"
+    return found
+
+
 def agrees(
     found: Sequence[Difference], held: Mapping[str, tuple[float, str]], tolerance: float
 ) -> bool:

@@ -20,11 +20,15 @@ class ExportError(ValueError):
 
 
 def chosen_cases(
-    model: Model, results: Results, names: Sequence[str]
+    model: Model, results: Results, names: Sequence[str], *, finds: bool
 ) -> tuple[list[CaseResult], list[Problem]]:
     """Give the cases to be written, and what keeps others from being written.
 
     Combinations are sums that Trunnion makes of cases; they are passed over unless named.
+
+    Parameters
+    ----------
+    finds : the other program finds which contacts are closed, without an answer to hold them by.
     """
     cards = {case.name: case for case in model.cases}
     unknown = [name for name in names if name not in results.cases]
@@ -40,14 +44,14 @@ def chosen_cases(
                 text = f"COMB {case.name}: no case; export those that it is made of"
                 problems.append(Problem(place, text))
             continue
-        found = list(_faults(card, case))
+        found = list(_faults(card, case, finds))
         problems += [Problem(place, f"CASE {case.name}: {text}") for text in found]
         if not found:
             cases.append(case)
     return cases, problems
 
 
-def _faults(card: Case | None, case: CaseResult) -> Iterator[str]:
+def _faults(card: Case | None, case: CaseResult, finds: bool) -> Iterator[str]:
     """Yield what keeps one case from being written."""
     if card is not None and card.spectrum is not None:
         yield "a response spectrum combines modes; there is no static job to write"
@@ -64,6 +68,10 @@ def _faults(card: Case | None, case: CaseResult) -> Iterator[str]:
         rough = list(dict.fromkeys(cards[i].name for i in sliders.card))
         ring = (contacts.dim == 2) & ~contacts.two_way
         round_ = list(dict.fromkeys(cards[i].name for i in contacts.card[ring]))
+        ways = list(dict.fromkeys(cards[i].name for i in contacts.card[~contacts.two_way]))
+        if ways and not finds:
+            yield f"there is no answer whose contacts could be held at {_some(ways)}"
+            return
         if rough:
             yield f"there is no answer whose friction could be held at {_some(rough)}"
         if round_:

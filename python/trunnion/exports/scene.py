@@ -4,7 +4,7 @@ Contact states stay open to be found wherever the other program has a law for th
 gaps all round a vertical pipe, are held as the answer left them.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -74,18 +74,26 @@ class Scene:
     """A job: its pipe, and the cases that are carried over.
 
     moduli : (n_elem,) E and G [Pa] of the material of every element, cold; 1 for springs.
+    steps : in how many each case loads the pipe where it lies; 0: it begins after another.
     """
 
     system: System
     moduli: tuple[F8, F8]
     cases: tuple[CaseResult, ...]
+    steps: Mapping[str, int]
     elements: tuple[str, ...]
     cards: tuple[str, ...]
 
 
-def build_scene(system: System, moduli: tuple[F8, F8], cases: Sequence[CaseResult]) -> Scene:
+def build_scene(
+    system: System,
+    moduli: tuple[F8, F8],
+    cases: Sequence[CaseResult],
+    steps: Mapping[str, int],
+) -> Scene:
     """Name what a job consists of."""
-    return Scene(system, moduli, tuple(cases), element_ids(system.parts), card_ids(system.cards))
+    names = element_ids(system.parts), card_ids(system.cards)
+    return Scene(system, moduli, tuple(cases), steps, *names)
 
 
 def modulus_ratio(scene: Scene, case: CaseResult) -> F8:
@@ -143,7 +151,8 @@ def _rubs(case: CaseResult, rows: Sequence[Sequence[int]]) -> list[Rub]:
     assert case.loads is not None
     found = []
     for i, mode in enumerate(state.mode.tolist()):
-        if mode == ENGAGED:  # MUX=0: no friction
+        mu = float(s.mu[i]) * case.loads.mux
+        if mode == ENGAGED or mu == 0.0:
             continue
         pressing = s.contact[s.first[i] : s.first[i + 1]].tolist()
         basis = tuple(_vector(way) for way in s.basis[i] if way.any())
@@ -152,7 +161,7 @@ def _rubs(case: CaseResult, rows: Sequence[Sequence[int]]) -> list[Rub]:
                 i,
                 int(s.card[i]),
                 MODES[mode],
-                float(s.mu[i]) * case.loads.mux,
+                mu,
                 float(s.kf[i]),
                 basis,
                 _vector(state.datum[i]),

@@ -23,7 +23,7 @@ from trunnion.report.summary import Largest, largest_of
 from trunnion.report.units import ReportUnits, report_units
 from trunnion.results.supports import card_ids, card_levels, cause_of, is_good
 
-MOST = 2  # lines of a message on a terminal
+MOST, LOW = 2, 20  # lines of a message on a terminal; one where this has fewer than LOW
 LABEL = 15  # characters before a verdict
 NAMED = 40  # supports named in a line, before it is cut to its width
 
@@ -35,9 +35,14 @@ class Room:
     columns: int
     lines: int | None = None
 
+    @property
+    def most(self) -> int:
+        """Lines of a message."""
+        return MOST if self.lines is None or self.lines >= LOW else 1
+
 
 SCREEN, PIPE = Room(80, 24), Room(PAGE)
-SPARE = 4  # lines that stay for the prompt, the files that were written and the timings
+FEWEST = 8  # lines that a summary has on any terminal
 
 
 @dataclass(slots=True)
@@ -72,9 +77,10 @@ def screen(results: Results, model: Model, room: Room = SCREEN) -> tuple[bool, s
     warnings = [f"warning: {text}" for text in all_warnings(results, units)]
     source = [] if model.origin is None else origin_lines(model.origin)
     blocks = [
-        Block([[_title(results, room)], [head]] if results.title else [[head]], least=2),
-        Block([[row] for row in rows], 3, "cases"),
+        Block([[_title(results, room)]] if results.title else []),
         Block(_messages(source, room), 2, "of these"),
+        Block([[head]]),
+        Block([[row] for row in rows], 3, "cases"),
         Block(_verdicts(results, bad, units, room), 3, "lines"),
         Block(_messages(lines, room), 1, "lines"),
         Block(_messages(causes, room, fg="red"), 2, "causes"),
@@ -90,7 +96,7 @@ def _fit(blocks: Sequence[Block], room: Room) -> None:
         block.shown = len(block.entries)
     if room.lines is None:
         return
-    space = max(room.lines - SPARE, 10)
+    space = max(room.lines, FEWEST)
     while sum(len(block.lines()) for block in blocks) > space:
         spare = [block.shown - block.least for block in blocks]
         i = max(range(len(blocks)), key=lambda i: spare[i])
@@ -107,7 +113,7 @@ def _title(results: Results, room: Room) -> str:
 
 
 def _messages(texts: Sequence[str], room: Room, fg: str | None = None) -> list[list[str]]:
-    """Break messages at the width of a terminal, in at most MOST lines; a pipe gets them whole."""
+    """Break messages at the width of a terminal, in one line or two; a pipe gets them whole."""
     found = []
     for text in texts:
         lines = [f"  {text}"]
@@ -117,7 +123,7 @@ def _messages(texts: Sequence[str], room: Room, fg: str | None = None) -> list[l
                 max(room.columns, 20),
                 initial_indent="  ",
                 subsequent_indent="    ",
-                max_lines=MOST,
+                max_lines=room.most,
                 placeholder=" ...",
             )
         found.append([click.style(line, fg=fg) if fg else line for line in lines])
@@ -137,11 +143,11 @@ def _verdicts(results: Results, bad: list[str], units: ReportUnits, room: Room) 
 
 
 def _labelled(label: str, text: str, room: Room, fg: str | None = None) -> list[str]:
-    """Set a text behind its label, in at most MOST lines of a terminal."""
+    """Set a text behind its label, in one line of a terminal or two."""
     lines = [text]
     if room.lines is not None:
         wide = max(room.columns - LABEL - 2, 20)
-        lines = textwrap.wrap(text, wide, max_lines=MOST, placeholder=" ...")
+        lines = textwrap.wrap(text, wide, max_lines=room.most, placeholder=" ...")
     labels = [click.style(label.ljust(LABEL), bold=True), *[" " * LABEL] * (len(lines) - 1)]
     return [f"  {a}{click.style(b, fg=fg)}" for a, b in zip(labels, lines, strict=True)]
 

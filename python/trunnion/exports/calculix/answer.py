@@ -9,7 +9,9 @@ import numpy as np
 from trunnion.arrays import F8, CaseResult
 from trunnion.exports.calculix import groups, numbered
 from trunnion.exports.calculix.numbering import Deck, hold_keys
-from trunnion.exports.scene import Rub, Stand
+from trunnion.exports.opensees.parts.laws import judge, relative
+from trunnion.exports.opensees.tables import card_rows, held
+from trunnion.exports.scene import Stand
 
 if TYPE_CHECKING:
     from trunnion.exports import Job
@@ -96,66 +98,27 @@ def _case(
 def _judge(
     deck: Deck, case: CaseResult, found: Stand, u: F8, pushes: list[float]
 ) -> tuple[float, str]:
-    """Worst violation of the contact and friction laws in CalculiX's own numbers, and where.
+    """Worst violation of the laws of contact and friction in CalculiX's own numbers, and where.
 
-    Pulls relative to the largest force of a spring, friction to the largest normal force on which
-    there is some, travel to the largest movement.
+    Pulls relative to the largest force of a spring, travel to the largest movement.
     """
-    most = max([1.0, *map(abs, pushes)])
-    reach = max(1e-12, float(np.abs(u[:, :3]).max()))
-    worst = [(0.0, "")]
+    assert case.loads is not None
+    scene = deck.scene
+    job = {"cards": card_rows(scene)}
+    base = dict(enumerate(case.loads.base.tolist()))
+    stated = {"base": base, **held(found)}
+    moved = dict(zip(scene.system.labels, u.tolist(), strict=True))
+    vectors = [
+        [push * x for x in hold.normal] for hold, push in zip(found.holds, pushes, strict=True)
+    ]
+    worst = [judge(job, stated, moved, vectors, DIGITS)]
+    most, reach = max([1.0, *map(abs, pushes)]), max(1e-12, float(np.abs(u[:, :3]).max()))
     for hold, push in zip(found.holds, pushes, strict=True):
-        part = slice(3, 6) if hold.turns else slice(0, 3)
-        d = float(np.dot(hold.normal, _travel(deck, case, u, hold.card, part)))
-        name = deck.scene.cards[hold.card]
+        name = scene.cards[hold.card]
         if hold.closed == 0:
-            beyond = max(d - hold.plus, -d - hold.minus, 0.0)
-            worst.append((beyond / reach, f"gap at {name}"))
+            travel = relative(job, stated, moved, hold.card)
+            d = float(np.dot(hold.normal, travel[3:] if hold.turns else travel[:3]))
+            worst.append((max(d - hold.plus, -d - hold.minus, 0.0) / reach, f"gap at {name}"))
         elif hold.closed != 2:
             worst.append((max(0.0, push * hold.closed) / most, f"pull at {name}"))
-    normals = [_pressed(found, rub, pushes) for rub in found.rubs]
-    for rub, normal in zip(found.rubs, normals, strict=True):
-        travel = _travel(deck, case, u, rub.card, slice(0, 3)) - rub.datum
-        error = _coulomb(rub, rub.mu * normal, travel, DIGITS * reach)
-        worst.append((error / max(1.0, *normals), f"friction of {deck.scene.cards[rub.card]}"))
-    for ring in found.rings:
-        travel = _travel(deck, case, u, ring.card, slice(0, 3))
-        across = float(np.linalg.norm([np.dot(travel, way) for way in ring.normals]))
-        beyond = across - ring.gap
-        error = max(0.0, -beyond if ring.closed else beyond)
-        worst.append((error / reach, f"gap round the pipe at {deck.scene.cards[ring.card]}"))
     return max(worst)
-
-
-def _pressed(found: Stand, rub: Rub, pushes: list[float]) -> float:
-    """Size of the force that presses on a slider [N]."""
-    parts = (pushes[i] * np.array(found.holds[i].normal) for i in rub.holds)
-    return float(np.linalg.norm(sum(parts, np.zeros(3))))
-
-
-def _coulomb(rub: Rub, capacity: float, travel: F8, printed: float) -> float:
-    """Force by which the friction that was held departs from Coulomb's law [N].
-
-    Parameters
-    ----------
-    capacity : mu N [N].  travel : (3,) from the datum [m].
-    printed : how far a printed movement is rounded [m].
-    """
-    travel = sum((np.dot(travel, way) * np.array(way) for way in rub.basis), np.zeros(3))
-    slide, force = float(np.linalg.norm(travel)), float(np.linalg.norm(rub.force))
-    if rub.mode == "stick":
-        return max(0.0, rub.kf * (slide - printed) - capacity)
-    if rub.mode == "open":
-        return capacity
-    sine = float(np.linalg.norm(np.cross(travel, rub.force))) / max(slide * force, 1e-300)
-    opposed = float(np.dot(travel, rub.force)) <= 0.0
-    return max(abs(force - capacity), sine * force) if opposed else force + capacity
-
-
-def _travel(deck: Deck, case: CaseResult, u: F8, card: int, part: slice) -> F8:
-    """Movement of a support's node against its base (3,)."""
-    assert case.loads is not None
-    node, other = deck.cards[card]
-    base = case.loads.base[card] if other < 0 else u[other]
-    moved: F8 = u[node, part] - base[part]
-    return moved

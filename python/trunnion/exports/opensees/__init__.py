@@ -13,7 +13,8 @@ if TYPE_CHECKING:
 HERE = Path(__file__).parent
 PARTS = (
     *("../agreement.py", "parts/vectors.py", "parts/frame.py", "parts/structure.py"),
-    *("parts/loads.py", "parts/laws.py", "parts/answer.py", "parts/command.py"),
+    *("parts/loads.py", "parts/laws.py", "parts/friction.py", "parts/answer.py"),
+    "parts/command.py",
 )
 
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from trunnion.arrays import ARC, F8, SPRING, STRAIGHT, TAPER, CaseResult
 from trunnion.exports.hinges import chain
-from trunnion.exports.scene import Rub, Scene, Stand, absent, modulus_ratio, stand
+from trunnion.exports.scene import Scene, Stand, absent, modulus_ratio, stand
 
 
 def job_lines(scene: Scene, deck: str) -> Iterable[str]:
@@ -26,10 +26,23 @@ def job_lines(scene: Scene, deck: str) -> Iterable[str]:
     yield from _list("springs", (_row(_spring(scene, e)) for e in _of(scene, SPRING)))
     yield from _list("elements", (f"{name!a}" for name in scene.elements))
     yield "    # supports: id, name, node, other node"
-    cards = zip(scene.cards, s.cards, strict=True)
-    rows = ((i, c.name, _node(scene, c.label), _node(scene, c.cnode)) for i, c in cards)
-    yield from _list("cards", (_row(row) for row in rows))
+    yield from _list("cards", (_row(row) for row in card_rows(scene)))
     yield from _supports_and_cases(scene)
+
+
+def card_rows(scene: Scene) -> list[tuple[str, str, str | None, str | None]]:
+    """Give id, name, node and other node of every support card."""
+    cards = zip(scene.cards, scene.system.cards, strict=True)
+    return [(i, c.name, _node(scene, c.label), _node(scene, c.cnode)) for i, c in cards]
+
+
+def held(found: Stand) -> dict[str, list[dict[str, Any]]]:
+    """What is held in a case: friction and gaps all round."""
+    rubs = [rub._asdict() for rub in found.rubs]
+    for rub in rubs:
+        rub["contacts"] = rub.pop("holds")
+        del rub["slider"]
+    return {"rubs": rubs, "rings": [ring._asdict() for ring in found.rings]}
 
 
 def _node(scene: Scene, label: str | None) -> str | None:
@@ -102,6 +115,8 @@ def _case(scene: Scene, case: CaseResult, found: Stand, which: int) -> Iterable[
     ratio, springs = modulus_ratio(scene, case), s.kind == SPRING
     yield f"        {case.name!a}: {{"
     yield f'{pad}"text": {case.text!a}, "supports": {which},'
+    if found.rubs:
+        yield f'{pad}"steps": {scene.steps[case.name]},'
     rows: dict[str, list[str]] = {
         "modulus": _named(names, np.where(ratio == 1.0, 0.0, ratio)),
         "line": _named(names, loads.dist * pipe),
@@ -117,19 +132,11 @@ def _case(scene: Scene, case: CaseResult, found: Stand, which: int) -> Iterable[
         yield from _dictionary(name, entries, pad) if entries else ()
     lists = {
         "absent": [f"({labels[n]!a}, {i})" for n, i in absent(scene, found.holds)],
-        "rubs": [_text(_rub(rub)) for rub in found.rubs],
-        "rings": [_text(ring._asdict()) for ring in found.rings],
+        **{name: [_text(row) for row in some] for name, some in held(found).items()},
     }
     for name, entries in lists.items():
         yield from _list(name, entries, pad) if entries else ()
     yield "        },"
-
-
-def _rub(rub: Rub) -> dict[str, Any]:
-    row: dict[str, Any] = rub._asdict()
-    row["contacts"] = row.pop("holds")
-    del row["slider"]
-    return row
 
 
 def _named(names: Sequence[Any], values: F8) -> list[str]:

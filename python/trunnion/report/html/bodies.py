@@ -36,9 +36,10 @@ def _bellows() -> Profile:
 
 SHAPES: Mapping[str, Profile] = {
     "valve": _edges(
-        (0.0, 1.0), (0.0, STOUT), (0.12, STOUT), (0.12, 1.35), (0.5, NECK), (0.88, 1.35),
-        (0.88, STOUT), (1.0, STOUT), (1.0, 1.0)),
-    "flange": _edges((0.0, 1.0), (0.0, STOUT), (1.0, STOUT), (1.0, 1.0)),
+        (0.0, 1.0), (0.02, 1.0), (0.02, STOUT), (0.12, STOUT), (0.12, 1.35), (0.5, NECK),
+        (0.88, 1.35), (0.88, STOUT), (0.98, STOUT), (0.98, 1.0), (1.0, 1.0)),
+    "flange": _edges(  # a groove shows where two meet
+        (0.0, 1.0), (0.08, 1.0), (0.08, STOUT), (0.92, STOUT), (0.92, 1.0), (1.0, 1.0)),
     "joint": _bellows(),
 }  # fmt: skip
 

@@ -100,7 +100,7 @@ const DATA = JSON.parse(document.getElementById("data").textContent);
         if (colour) colour[i] = v;
       }
     }
-    const mesh = { type: "mesh3d", x, y, z, ...faces, hoverinfo: "skip", flatshading: false,
+    const mesh = { type: "mesh3d", x, y, z, ...faces, hoverinfo: "text", flatshading: false,
       lighting: { ambient: 0.82, diffuse: 0.4, specular: 0.08, roughness: 0.6, fresnel: 0.05 },
       lightposition: { x: 1e5 * (up[0] + 0.6), y: 1e5 * (up[1] + 0.4), z: 1e5 * (up[2] + 0.8) } };
     if (plain) return { ...mesh, intensity: new Float32Array(total), cmin: 0, cmax: 1,
@@ -119,16 +119,18 @@ const DATA = JSON.parse(document.getElementById("data").textContent);
   const bay = spans.length ? spans[Math.floor(spans.length / 2)] || size : size;
   const glyph = Math.max(2.2 * thick, Math.min(size / 75, 0.25 * bay));
   const reach = Math.min(0.1 * size, 2.5 * bay);
-  const solids = () => ({ x: [], y: [], z: [], i: [], j: [], k: [], facecolor: [] });
+  /* `say` is what pointing at the next solids shows */
+  const solids = () => ({ x: [], y: [], z: [], i: [], j: [], k: [], facecolor: [], text: [],
+    say: "" });
+  const put = (m, p) => { m.x.push(p[0]); m.y.push(p[1]); m.z.push(p[2]); m.text.push(m.say); };
   function cone(m, tip, axis, length, wide, colour) {
     const side = aside(axis), other = cross(axis, side), base = m.x.length, sides = 10;
-    const put = (p) => { m.x.push(p[0]); m.y.push(p[1]); m.z.push(p[2]); };
-    put(tip);
+    put(m, tip);
     const foot = add(tip, axis, -length);
-    put(foot);
+    put(m, foot);
     for (let a = 0; a < sides; a++) {
       const w = 2 * Math.PI * a / sides;
-      put(add(add(foot, side, wide * Math.cos(w)), other, wide * Math.sin(w)));
+      put(m, add(add(foot, side, wide * Math.cos(w)), other, wide * Math.sin(w)));
     }
     for (let a = 0; a < sides; a++) {
       const p = base + 2 + a, q = base + 2 + (a + 1) % sides;
@@ -139,9 +141,8 @@ const DATA = JSON.parse(document.getElementById("data").textContent);
   function box(m, centre, axes, half, colour) {
     const base = m.x.length;
     for (const a of [-1, 1]) for (const b of [-1, 1]) for (const c of [-1, 1]) {
-      const p = add(add(add(centre, axes[0], a * half[0]), axes[1], b * half[1]), axes[2],
-        c * half[2]);
-      m.x.push(p[0]); m.y.push(p[1]); m.z.push(p[2]);
+      put(m, add(add(add(centre, axes[0], a * half[0]), axes[1], b * half[1]), axes[2],
+        c * half[2]));
     }
     for (const [i, j, k] of [[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1],
       [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]]) {
@@ -198,7 +199,6 @@ const DATA = JSON.parse(document.getElementById("data").textContent);
 
   function furniture(c, s, options) {
     const m = solids(), line = { x: [], y: [], z: [] }, traces = [];
-    const marks = { x: [], y: [], z: [], text: [] };
     const arrows = solids(), shaft = { x: [], y: [], z: [] };
     let most = 0;
     if (c) for (let i = 0; i < scene.cards.length; i++)
@@ -208,11 +208,9 @@ const DATA = JSON.parse(document.getElementById("data").textContent);
       const where = add(place(nodes, card.node), u);
       const state = c && c.state[i] >= 0 ? scene.states[c.state[i]] : "none";
       const colour = options.colour === "state" ? STATE[state] : STATE.none;
+      m.say = arrows.say = "<b>" + escape(card.name) + "</b>" + (c ? "<br>" + (state === "none"
+        ? "" : state + "<br>") + load(c, i) : "");
       if (options.supports) support(m, line, card, where, colour);
-      const foot = add(where, up, -card.radius - 0.5 * glyph);
-      marks.x.push(foot[0]); marks.y.push(foot[1]); marks.z.push(foot[2]);
-      marks.text.push("<b>" + escape(card.name) + "</b>" + (c ? "<br>" + (state === "none"
-        ? "" : state + "<br>") + load(c, i) : ""));
       if (!c || !options.arrows || most === 0) return;
       const f = [c.load[6 * i], c.load[6 * i + 1], c.load[6 * i + 2]], amount = norm(f);
       if (amount < 1e-3 * most) return;
@@ -224,40 +222,63 @@ const DATA = JSON.parse(document.getElementById("data").textContent);
       shaft.z.push(start[2], neck[2], null);
       cone(arrows, tip, axis, head, 0.35 * head, "#c2185b");
     });
-    const solid = { type: "mesh3d", hoverinfo: "skip", flatshading: true,
+    const solid = { type: "mesh3d", hoverinfo: "text", flatshading: true,
       lighting: { ambient: 0.88, diffuse: 0.3, specular: 0.02 } };
     if (m.i.length) traces.push({ ...solid, ...m });
     if (line.x.length) traces.push({ type: "scatter3d", mode: "lines", ...line,
       hoverinfo: "skip", showlegend: false, line: { color: STATE.none, width: 3 } });
     if (arrows.i.length) traces.push({ ...solid, ...arrows }, { type: "scatter3d", mode: "lines",
       ...shaft, hoverinfo: "skip", showlegend: false, line: { color: "#c2185b", width: 4 } });
-    if (marks.x.length && !MANY) traces.push({ type: "scatter3d", mode: "markers", ...marks,
-      hoverinfo: "text", showlegend: false, marker: { size: 3, color: STATE.none } });
     return traces;
   }
-  /* many nodes: their marks take the pipe's colours and tell of their supports, too */
+  /* many nodes: their marks take the pipe's colours */
   const MANY = n_node > 500, held = new Map();
   scene.cards.forEach((card, k) => held.set(card.node, [...(held.get(card.node) || []), k]));
   const place2 = (u, i, s) => [s * u[6 * i], s * u[6 * i + 1], s * u[6 * i + 2]];
   function load(c, i) {
-    const f = unit.force, m = unit.moment, v = (k) => c.load[6 * i + k];
-    const three = (k, q) => [0, 1, 2].map((d) => digits(v(k + d) * q.factor)).join("  ");
-    return "load on the restraint<br>F " + three(0, f) + " " + f.unit + "<br>M " + three(3, m) +
-      " " + m.unit;
+    return "load on the restraint<br>F " + three(c.load, 6 * i, unit.force) + "<br>M " +
+      three(c.load, 6 * i + 3, unit.moment);
   }
 
-  function points(c, s, labelled, pipe) {
-    const x = [], y = [], z = [], text = [];
+  const three = (list, i, q) => [0, 1, 2].map((k) => digits(list[i + k] * q.factor)).join("  ") +
+    " " + q.unit;
+  /* what pointing at a node shows: movements, and its supports with their loads */
+  function told(c) {
+    return scene.labels.map((label, i) => {
+      const head = "<b>node " + escape(label) + "</b>";
+      if (!c) return head;
+      const own = (held.get(i) || []).map((k) => "<br>" + escape(scene.cards[k].name) + ": " +
+        load(c, k));
+      return head + "<br>moves " + three(c.u, 6 * i, unit.movement) + "<br>turns " +
+        three(c.u, 6 * i + 3, unit.rotation) + own.join("");
+    });
+  }
+  /* what pointing at a pipe shows: the node where one is near, else the element there */
+  function spoken(c, told) {
+    const text = new Array(total), force = unit.force, moment = unit.moment;
+    for (let e = 0; e + 1 < first.length; e++) {
+      const head = "<b>" + escape(scene.type[e] + " " + scene.element[e]) + "</b>";
+      for (let p = first[e]; p < first[e + 1]; p++) {
+        let said = p === first[e] ? told[scene.ends[e][0]] : p + 1 === first[e + 1]
+          ? told[scene.ends[e][1]] : head;
+        if (said === head && c) {
+          said += "<br>moves " + three(c.move, 3 * p, unit.movement);
+          if (Number.isFinite(c.stress[p])) said += "<br>axial " + digits(c.axial[p] *
+            force.factor) + " " + force.unit + ", bending " + digits(c.bending[p] *
+            moment.factor) + " " + moment.unit + "<br>von Mises " + digits(c.stress[p] *
+            unit.stress.factor) + " " + unit.stress.unit;
+        }
+        text.fill(said, p * SIDES, (p + 1) * SIDES);
+      }
+    }
+    return text;
+  }
+
+  function points(c, s, labelled, pipe, text) {
+    const x = [], y = [], z = [];
     for (let i = 0; i < n_node; i++) {
       const u = c ? place2(c.u, i, s) : [0, 0, 0];
       x.push(nodes[3 * i] + u[0]); y.push(nodes[3 * i + 1] + u[1]); z.push(nodes[3 * i + 2] + u[2]);
-      if (!c) { text.push("<b>" + escape(scene.labels[i]) + "</b>"); continue; }
-      const d = [0, 1, 2].map((k) => digits(c.u[6 * i + k] * unit.movement.factor)).join("  ");
-      const r = [3, 4, 5].map((k) => digits(c.u[6 * i + k] * unit.rotation.factor)).join("  ");
-      text.push("<b>node " + escape(scene.labels[i]) + "</b><br>moves " + d + " " +
-        unit.movement.unit + "<br>turns " + r + " " + unit.rotation.unit);
-      if (MANY && held.has(i)) text[i] += "<br>" + held.get(i).map((k) =>
-        escape(scene.cards[k].name) + ": " + load(c, k)).join("<br>");
     }
     const found = [{ type: "scatter3d", mode: "markers", x, y, z, text, hoverinfo: "text",
       showlegend: false, marker: MANY
@@ -287,14 +308,17 @@ const DATA = JSON.parse(document.getElementById("data").textContent);
   }
   function triad() {
     const corner = add(low, [1, 1, 1], -0.02 * size), length = 0.07 * size;
-    return ["X", "Y", "Z"].map((name, k) => {
+    const found = { x: [], y: [], z: [], text: [] }, color = [];
+    ["X", "Y", "Z"].forEach((name, k) => {
       const tip = [...corner];
       tip[k] += length;
-      return { type: "scatter3d", mode: "lines+text", x: [corner[0], tip[0]],
-        y: [corner[1], tip[1]], z: [corner[2], tip[2]], text: ["", name], hoverinfo: "skip",
-        showlegend: false, line: { color: ["#b3261e", "#2a8f55", "#2f6db5"][k], width: 4 },
-        textfont: { size: 12, color: "#1b2430" } };
+      for (const [p, word] of [[corner, ""], [tip, name], [[null, null, null], ""]]) {
+        found.x.push(p[0]); found.y.push(p[1]); found.z.push(p[2]); found.text.push(word);
+        color.push(["#b3261e", "#2a8f55", "#2f6db5"][k]);
+      }
     });
+    return { type: "scatter3d", mode: "lines+text", ...found, hoverinfo: "skip",
+      showlegend: false, line: { color, width: 4 }, textfont: { size: 12, color: "#1b2430" } };
   }
 
   /* controls */
@@ -322,27 +346,31 @@ const DATA = JSON.parse(document.getElementById("data").textContent);
   eye[level[across]] = high_axis === 2 && across === 0 ? -0.75 : 0.75;
   eye[level[1 - across]] = high_axis === 2 && across === 0 ? -1.35 : 1.35;
   const room = 0.3 * size, ranges = low.map((v, k) => [v - room, high[k] + room]);
-  const ratio = ranges.map((r) => fit() * (r[1] - r[0]) / size);
-  /* plotly shows a cube of 1 so that it takes 1/2.15 of the height; the model shall fill 3/4 */
-  function fit() {
+  const { fit, middle } = fitted(), ratio = ranges.map((r) => fit * (r[1] - r[0]) / size);
+  /* plotly shows a cube of 1 so that it takes 1/2.15 of the height; the model shall fill 3/4, and
+     its outline as it is seen, not its box, stands in the middle */
+  function fitted() {
     const toward = scaled(eye, 1 / norm(eye)), side = cross(up, toward);
     const right = scaled(side, 1 / norm(side)), rise = cross(toward, right);
+    const centre = scaled(add(low, high), 0.5);
     const extent = (d) => {
       let a = Infinity, b = -Infinity;
       for (let i = 0; i < n_node; i++) {
-        const v = dot(place(nodes, i), d);
+        const v = dot(add(place(nodes, i), centre, -1), d);
         a = Math.min(a, v); b = Math.max(b, v);
       }
-      return b - a + 0.12 * size;
+      return { size: b - a + 0.16 * size, middle: 0.5 * (a + b) };
     };
+    const across = extent(right), along = extent(rise);
     const { clientWidth: w, clientHeight: h } = stage;
-    return 2.15 * size * Math.min(0.76 * (w / h) / extent(right), 0.8 / extent(rise));
+    return { fit: 2.15 * size * Math.min(0.76 * (w / h) / across.size, 0.84 / along.size),
+      middle: add(scaled(right, across.middle), rise, along.middle) };
   }
   const axis = (k) => ({ visible: false, showspikes: false, range: ranges[k], autorange: false });
   function camera() {
-    const k = 1.15 / norm(eye);
-    return { up: { x: up[0], y: up[1], z: up[2] }, projection: { type: "orthographic" },
-      eye: { x: k * eye[0], y: k * eye[1], z: k * eye[2] }, center: { x: 0, y: 0, z: 0 } };
+    const xyz = (v) => ({ x: v[0], y: v[1], z: v[2] }), center = scaled(middle, fit / size);
+    return { up: xyz(up), projection: { type: "orthographic" },
+      eye: xyz(add(center, eye, 1.15 / norm(eye))), center: xyz(center) };
   }
   const layout = { margin: { l: 0, r: 0, t: 0, b: 0 }, showlegend: false, uirevision: "kept",
     paper_bgcolor: "#fff", hoverlabel: { bgcolor: "#fff", bordercolor: "#44546a", align: "left",
@@ -372,11 +400,15 @@ const DATA = JSON.parse(document.getElementById("data").textContent);
     get("factor").textContent = c ? "\u00d7 " + digits(s) : "";
     const options = { colour: key, supports: get("supports").checked,
       arrows: get("arrows").checked };
-    const pipe = tubes(c, key, s);
+    const pipe = tubes(c, key, s), text = told(c);
+    pipe.text = spoken(c, text);
     const traces = [pipe, ...furniture(c, s, options),
-      ...points(c, s, get("names").checked, pipe), ...triad()];
+      ...points(c, s, get("names").checked, pipe, text), triad()];
     if (get("ghost").checked && s > 0) traces.push(ghost());
     legend(key);
+    const colour = get("colour");
+    get("caption").textContent = c ? c.name + " = " + c.text + ": " +
+      colour.options[colour.selectedIndex].text + "; movements \u00d7 " + digits(s) : "";
     const config = { displaylogo: false, responsive: true, displayModeBar: false,
       scrollZoom: true, plotGlPixelRatio: 2 };
     return Plotly.react(stage, traces, layout, config).then(() => { stage.dataset.drawn = c

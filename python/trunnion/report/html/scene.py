@@ -24,6 +24,7 @@ from trunnion.results.supports import (
 )
 
 POINTS = 60_000  # of all cases together, about
+DRAWN = 16_000  # of one case, about: a browser without a graphics card draws them in seconds
 COARSE = 15.0  # degrees of a part of a bend
 SPRINGY = 1e11  # N/m: what is softer is drawn as a spring
 
@@ -46,6 +47,7 @@ def scene(results: Results, units: ReportUnits) -> dict[str, object] | None:
         "first": lines.first.tolist(),
         "element": [f"{p.start}-{p.end}" for p in system.parts],
         "type": [part.type for part in system.parts],
+        "ends": system.ends.tolist(),
         "labels": list(system.labels),
         "node_point": _node_points(system, lines),
         "spans": np.round(system.length, 6).tolist(),
@@ -73,8 +75,8 @@ def packed(values: ArrayLike) -> str:
 
 
 def _parts(system: System, n_case: int) -> int:
-    """Parts of a straight, so that all cases together have about POINTS points."""
-    room = POINTS // (max(len(system.kind), 1) * max(n_case, 1)) - 1
+    """Parts of a straight, so that a case has about DRAWN points and all together POINTS."""
+    room = min(DRAWN, POINTS // max(n_case, 1)) // max(len(system.kind), 1) - 1
     return int(np.clip(room, 1, 8))
 
 

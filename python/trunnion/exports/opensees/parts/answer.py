@@ -5,6 +5,7 @@ from itertools import product
 from typing import Any
 
 from trunnion.exports.opensees.parts.frame import Frame
+from trunnion.exports.opensees.parts.friction import places, try_friction
 from trunnion.exports.opensees.parts.laws import judge
 from trunnion.exports.opensees.parts.loads import (
     add_loads,
@@ -33,17 +34,14 @@ def solve(job: Mapping[str, Any], name: str) -> dict[str, Any]:
         add_elements(frame)
         add_supports(frame)
         add_loads(frame)
-        frame.ops.constraints("Transformation")
-        frame.ops.numberer("RCM")
-        frame.ops.system("UmfPack")
         balance = looser * max(BALANCE * frame.largest, LEAST_BALANCE)
-        frame.ops.test("NormUnbalance", balance, ITERATIONS, 0)
-        frame.ops.algorithm(algorithm)
-        frame.ops.integrator("LoadControl", 1.0 / steps)
-        frame.ops.analysis("Static")
-        code = frame.ops.analyze(steps)
+        code = frame.analyse(algorithm, steps, balance, ITERATIONS)
         if code == 0:
-            return answer(frame)
+            found = answer(frame)
+            if frame.case["rubs"]:
+                held = {key: frame.ops.nodeDisp(tag) for key, tag in places(frame).items()}
+                found["friction"] = try_friction(job, name, held)
+            return found
         cause = f"OpenSees: analyze returns {code}"
     return {"converged": False, "cause": cause}
 
@@ -60,7 +58,7 @@ def answer(frame: Frame) -> dict[str, Any]:
         push = [-x for x in ops.eleForce(tag)[6:12]]
         force[card] = add(force[card], push)
         pushes.append(push)
-    law, where = judge(frame, moved, pushes)
+    law, where = judge(job, frame.case, moved, pushes)
     return {
         "converged": True,
         "nodes": moved,

@@ -7,8 +7,19 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from trunnion.exports.agreement import TOLERANCE, agrees, differences, laws, table, unanswered
+from trunnion.exports.agreement import (
+    TOLERANCE,
+    agrees,
+    differences,
+    laws,
+    table,
+    tried,
+    unanswered,
+)
 from trunnion.exports.opensees.parts.answer import solve
+
+FORCES = ("FX", "FY", "FZ", "MX", "MY", "MZ")
+MOVEMENTS = ("UX", "UY", "UZ", "RX", "RY", "RZ")
 
 
 def main(job: Mapping[str, Any], arguments: Sequence[str] | None = None) -> int:
@@ -36,6 +47,10 @@ def main(job: Mapping[str, Any], arguments: Sequence[str] | None = None) -> int:
     own = json.loads(chosen.compare.read_text())
     rows = differences(own, found)
     print("\n" + table(rows, "OpenSees", chosen.allow))
+    for name, (value, _) in laws(found).items():
+        print(f"{name}: laws of the held contacts hold to {value:.1e}")
+    for name, what in tried(found, chosen.allow).items():
+        print(f"{name}: friction elements of OpenSees {what}")
     for name, why in unanswered(own, found).items():
         print(f"{name}: not compared: {why}")
     good = agrees(rows, laws(found), chosen.allow) and not unanswered(own, found)
@@ -48,10 +63,10 @@ def print_case(case: Mapping[str, Any]) -> None:
     if not case["converged"]:
         print(f"  not solved: {case['cause']}")
         return
-    print("  force and moment on the pipe [N, N m]")
+    print(f"  {'on the pipe [N, N m]':24}" + "".join(f"{x:>14}" for x in FORCES))
     for row in case["supports"]:
         numbers = "".join(f"{x:14.6g}" for x in (*row["force"], *row["moment"]))
         print(f"  {row['name'][:24]:24}{numbers}")
-    print("  movement [m, rad]")
+    print(f"  {'movement [m, rad]':24}" + "".join(f"{x:>14}" for x in MOVEMENTS))
     for label, six in case["nodes"].items():
         print(f"  {label[:24]:24}" + "".join(f"{x:14.6g}" for x in six))

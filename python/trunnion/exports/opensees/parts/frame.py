@@ -34,6 +34,7 @@ class Frame:
         self.link: dict[str, int] = {}
         self.held: list[tuple[int, int]] = []  # card, element of each spring of a support
         self.ground: dict[int, int] = {}  # card -> its ground
+        self.moved: dict[int, Vector] = {}  # grounds that move
         self.largest = 0.0  # load
         ops.wipe()
         ops.model("basic", "-ndm", 3, "-ndf", 6)
@@ -82,6 +83,26 @@ class Frame:
                 law = "-strain", *strain, "-stress", *stress
                 self.ops.uniaxialMaterial("ElasticMultiLinear", tag, *law)
         return self.springs[key]
+
+    def new_ground(self, label: str, moved: Vector) -> int:
+        """Add a ground at a node: fixed, or moved with the loads."""
+        tag = self.new_node(self.job["nodes"][label])
+        if any(moved):
+            self.moved[tag] = moved
+        else:
+            self.ops.fix(tag, *[1] * 6)
+        return tag
+
+    def analyse(self, algorithm: str, steps: int, balance: float, most: int) -> int:
+        """Solve until the norm out of balance is small; 0: done."""
+        self.ops.constraints("Transformation")
+        self.ops.numberer("RCM")
+        self.ops.system("UmfPack")
+        self.ops.test("NormUnbalance", balance, most, 0)
+        self.ops.algorithm(algorithm)
+        self.ops.integrator("LoadControl", 1.0 / steps)
+        self.ops.analysis("Static")
+        return int(self.ops.analyze(steps))
 
     def load(self, node: int, six: Vector) -> None:
         """Add forces and moments at a node."""

@@ -18,10 +18,9 @@ def add_loads(frame: Frame) -> None:
     ops.pattern("Plain", 1, 1)
     for label, six in case["nodal"].items():
         frame.load(frame.node[label], six)
-    for card, six in case["base"].items():
-        if card in frame.ground and any(six):
-            for i, moved in enumerate(six, 1):
-                ops.sp(frame.ground[card], i, moved)
+    for tag, moved in frame.moved.items():
+        for i, shift in enumerate(moved, 1):
+            ops.sp(tag, i, shift)
     for card, six in support_pushes(frame):
         _, _, label, other = job["cards"][card]
         frame.load(frame.node[label], six)

@@ -5,7 +5,7 @@ Straight pipe is one `ElasticTimoshenkoBeam` an element; bends and reducers are 
 that carries nothing in the gap, so that OpenSees finds their states.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from math import inf
 from typing import Any
 
@@ -65,10 +65,17 @@ def six_springs(frame: Frame, near: int, far: int, axes: Any, k: Vector) -> int:
     return frame.new_element("zeroLength", near, far, "-mat", *materials, *way)
 
 
-def add_supports(frame: Frame) -> None:
-    """Add the springs of all supports, each on the ground of its card or on its other node."""
+def add_supports(frame: Frame, rough: Mapping[int, Any] | None = None) -> None:
+    """Add the springs of all supports, each on the ground of its card or on its other node.
+
+    Those that are `rough` become friction elements.
+    """
     job, case = frame.job, frame.case
-    for card, turns, normal, k, minus, plus in job["supports"][case["supports"]]:
+    for i, row in enumerate(job["supports"][case["supports"]]):
+        if rough and i in rough:
+            add_friction(frame, row, rough[i])
+            continue
+        card, turns, normal, k, minus, plus = row
         base, node = both_nodes(frame, card)
         if (minus, plus) == (inf, 0.0):  # ENT is for compression: turn it round
             normal, minus, plus = [-x for x in normal], plus, minus
@@ -84,15 +91,30 @@ def add_supports(frame: Frame) -> None:
                 frame.held.append((rub["card"], tag))
 
 
+def add_friction(frame: Frame, row: Any, rub: Mapping[str, Any]) -> None:
+    """Add the contact elements of one direction; a gap is a ground that stands back."""
+    card, _, normal, k, minus, plus = row
+    base, node = both_nodes(frame, card)
+    for sign, gap in ((1.0, minus), (-1.0, plus)):
+        if gap == inf:
+            continue
+        way = [sign * x for x in normal]
+        if gap:
+            at = frame.case["base"].get(card, [0.0] * 6)
+            back = [x - gap * y for x, y in zip(at, [*way, 0.0, 0.0, 0.0], strict=True)]
+            base = frame.new_ground(frame.job["cards"][card][2], back)
+        law = k, rub["kf"], rub["mu"], "-orient", *way, "-intType", 0
+        frame.new_element("zeroLengthContactASDimplex", base, node, *law)
+
+
 def both_nodes(frame: Frame, card: int) -> tuple[int, int]:
     """Node that a support stands on, and its node; ground is fixed, or moved by the case."""
     _, _, label, other = frame.job["cards"][card]
     if other is not None:
         return frame.node[other], frame.node[label]
     if card not in frame.ground:
-        frame.ground[card] = frame.new_node(frame.job["nodes"][label])
-        if not any(frame.case["base"].get(card, ())):
-            frame.ops.fix(frame.ground[card], *[1] * 6)
+        moved = frame.case["base"].get(card, [0.0] * 6)
+        frame.ground[card] = frame.new_ground(label, moved)
     return frame.ground[card], frame.node[label]
 
 
