@@ -30,7 +30,7 @@ from trunnion.report.plots.supportrows import rows_of_loads, rows_of_states
 from trunnion.report.plots.supportstates import glyph_looks, signed_loads
 from trunnion.report.plots.view import isometric
 from trunnion.report.units import report_units
-from trunnion.results.supports import card_loads, card_states
+from trunnion.results.supports import card_loads, card_nodes, card_states
 
 MODELS = Path(__file__).parents[2] / "models"
 HEAD = """\
@@ -276,6 +276,26 @@ def test_arrows_are_as_long_as_loads_and_point_along_them(line):
         assert (tip - tail) @ flat > 0.0
     np.testing.assert_allclose(ratios, ratios[0], rtol=1e-9)
     assert len(ratios) >= 3
+
+
+def test_loads_press_on_rests_and_pull_at_hangers(of_model):
+    """Arrow heads are at the rest, feet at the hanger, where both carry weight downwards."""
+    drawn, results = of_model("hangers")
+    case = results["OPE"]
+    found = next(
+        c
+        for c in drawn["OPE.supports"].axes[0].findobj(PolyCollection)
+        if to_hex(c.get_facecolor()[0]) == plots.palette.ARROW
+    )
+    order = np.argsort(-np.linalg.norm(card_loads(case)[:, :3], axis=1), kind="stable")
+    nodes = np.array(card_nodes(case.system))[order]
+    at = isometric(case.system.xyz, case.system.up).flat(case.system.xyz[nodes])
+    kinds = [case.system.cards[i].kind for i in order]
+    assert set(kinds) == {"anchor", "hanger", "support"}
+    for kind, place_, path in zip(kinds, at, found.get_paths(), strict=True):
+        above = path.vertices[:7, 1].max() > place_[1] + 0.1
+        below = path.vertices[:7, 1].min() < place_[1] - 0.5
+        assert (above, below) == ((False, True) if kind == "hanger" else (True, False)), kind
 
 
 def test_displacements_are_drawn_by_the_factor_that_is_stated(line):

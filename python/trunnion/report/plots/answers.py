@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from trunnion.arrays import F8, CaseResult, Spread
 from trunnion.report.plots.arrows import block_arrows, load_arrows
 from trunnion.report.plots.drawing import lone_triad
-from trunnion.report.plots.glyphs import glyphs, leaning, stand
+from trunnion.report.plots.glyphs import glyphs, leaning, pulled, stand
 from trunnion.report.plots.legend import mark
 from trunnion.report.plots.page import EDGE, FOOT, NORMAL, SMALL, TOP, WIDTH, fitted, page, put
 from trunnion.report.plots.palette import GREY
@@ -63,10 +63,10 @@ def _panel(
     looks = glyph_looks(case, bodies)
     draw_model(frame, found, plain_faces(found.system, found.course), looks, bodies, standing)
     load = card_loads(case)[:, :3]
-    lean = np.einsum("ij,ij->i", load, leaning(standing, bodies)) < 0.0
+    pulls = pulled(load, leaning(standing, bodies))
     arrows = load_arrows(
         frame, standing.at, standing.radius, load, [False] * len(load),
-        pulls=lean.tolist(), most=most,
+        pulls=pulls.tolist(), most=most,
     )  # fmt: skip
     space = occupied(frame, found, None, bodies, corner=False)
     block_arrows(space, frame, arrows)

@@ -9,7 +9,7 @@ from trunnion.arrays import F8, CaseResult
 from trunnion.report.plots import legend
 from trunnion.report.plots.arrows import Arrows, arrow, block_arrows, load_arrows
 from trunnion.report.plots.drawing import Frame, length_bar, nice, triad
-from trunnion.report.plots.glyphs import Glyph, Stand, glyphs, leaning, stand
+from trunnion.report.plots.glyphs import Glyph, Stand, glyphs, leaning, pulled, stand
 from trunnion.report.plots.page import EDGE, FOOT, HEIGHT, SMALL, TOP, WIDTH, certified, page, put
 from trunnion.report.plots.palette import ARROW, NO_STATE, STATES, Look
 from trunnion.report.plots.pipe import plain_faces
@@ -104,7 +104,7 @@ def signed_loads(case: CaseResult) -> tuple[F8, F8, list[bool]]:
 
 def _arrows(frame: Frame, case: CaseResult, standing: Stand, bodies: Sequence[Glyph]) -> Arrows:
     cards, load, both = signed_loads(case)
-    pulls = np.einsum("ij,ij->i", load, leaning(standing, bodies)[cards]) < 0.0
+    pulls = pulled(load, leaning(standing, bodies)[cards])
     return load_arrows(
         frame, standing.at[cards], standing.radius[cards], load, both, pulls=pulls.tolist()
     )
