@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import RendererAgg
 from matplotlib.collections import PolyCollection
-from matplotlib.colors import to_hex, to_rgb
+from matplotlib.colors import to_hex, to_rgb, to_rgba
 from matplotlib.text import Text
 
 import trunnion
@@ -24,8 +24,10 @@ from trunnion.report.plots.cycles import traces
 from trunnion.report.plots.glyphs import glyphs
 from trunnion.report.plots.labels import Space, place
 from trunnion.report.plots.names import safe
+from trunnion.report.plots.paint import Paint
 from trunnion.report.plots.palette import STATES, TYPES
-from trunnion.report.plots.scene import subject
+from trunnion.report.plots.pipe import paint_pipes, plain_faces
+from trunnion.report.plots.scene import frame_of, subject
 from trunnion.report.plots.supportrows import rows_of_loads, rows_of_states
 from trunnion.report.plots.supportstates import glyph_looks, signed_loads
 from trunnion.report.plots.view import isometric
@@ -198,6 +200,30 @@ def test_bends_are_arcs_and_pipes_as_wide_as_their_diameter(line):
     assert min(abs(w - least) for w in widths) < 1e-9
 
 
+def test_the_rim_of_a_corner_lies_behind_the_pipes_that_meet_there():
+    """Also where pipes are so thick that a corner covers several of their parts."""
+    deck = HEAD + "ANCHOR 1\nPIPE 1 2 DX=1000\nPIPE 2 3 DZ=1000\nPIPE 3 4 DY=700\nCASE A = W\n"
+    found = subject(trunnion.solve(read_text(deck, "corner.inp")).system)
+    paint = Paint()
+    with page.style():
+        frame = frame_of(page.page("", ""), (1, 1, 6, 5), found)
+    faces = plain_faces(found.system, found.course)
+    paint_pipes(paint, frame, found.system, found.course, found.course.at, faces)
+    rim = to_rgba(plots.palette.RIM)
+    discs = [i for i, p in enumerate(paint.polygons) if len(p) > 4]
+    fills = [i for i, p in enumerate(paint.polygons) if len(p) == 4 and paint.faces[i] != rim]
+    assert len(discs) == 8  # two corners, two ends each, rim and fill
+    covered = 0
+    for i in discs:
+        middle = paint.polygons[i].mean(axis=0)
+        radius = np.linalg.norm(paint.polygons[i][0] - middle)
+        for k in fills:
+            if np.linalg.norm(paint.polygons[k].mean(axis=0) - middle) < radius:
+                covered += 1
+                assert (paint.depths[i] < paint.depths[k]) == (paint.faces[i] == rim)
+    assert covered > 16
+
+
 def test_states_have_the_colour_and_mark_of_their_words(line):
     _, results, drawn = line
     for name in ("SUS", "OPE"):
@@ -219,7 +245,6 @@ def test_each_direction_word_has_its_own_colour(line):
     found = subject(results.system)
     with page.style():
         from trunnion.report.plots.glyphs import stand
-        from trunnion.report.plots.scene import frame_of
 
         figure = page.page("", "")
         frame = frame_of(figure, (1, 1, 6, 5), found)

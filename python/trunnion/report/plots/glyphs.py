@@ -136,7 +136,7 @@ def paint_glyphs(
 ) -> None:
     """Add bodies, each in the colour of its look; what is not filled is white with a rim."""
     for glyph, look in zip(found, looks, strict=True):
-        nearer = s.radius[glyph.card] + 0.5 * s.size
+        nearer = 2.0 * s.radius[glyph.card] + s.size  # than the pipe and its corners
         for body in glyph.bodies:
             paint.solid(frame, body, look.colour, nearer=nearer, filled=look.filled)
         for wire in glyph.wires:

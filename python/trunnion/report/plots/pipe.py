@@ -174,4 +174,5 @@ def _corners(
         (width, colour, 1),
     ):
         discs = where[:, None] + radius[:, None, None] * _CIRCLE
-        paint.add(discs, paints, near + shift * (0.51 * step + 1e-9), paints, 0.0)
+        beyond = 0.51 * step + width + grow  # the parts that a disc covers lie within
+        paint.add(discs, paints, near + shift * beyond, paints, 0.0)
