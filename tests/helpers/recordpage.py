@@ -19,8 +19,10 @@ writes the page anew; `trunnion run models/NAME.inp` repeats a deck by hand.
 
 Not on this page: the printed tables behind the libraries of materials and pipe sizes
 (`tests/unit/test_materials.py`, `tests/unit/test_sections.py`); closed forms of single elements and
-supports (`tests/unit`), the exact judges of 20 000 random scenes ([stability](stability.md)), and
-other programs on the same models ([benchmarks](benchmarks.md), [confirmed](export.md)).
+supports (`tests/unit`), the exact judges of 20 000 random scenes ([stability](stability.md)), other
+programs on the same models ([benchmarks](benchmarks.md), [confirmed](export.md)), and jobs with
+[printed results of CAESAR II](caesar.md#compared-with-printed-results), which are not in this
+repository.
 """
 HEAD = "| number | published | ours | difference | allowed |\n|---|---:|---:|---:|---|"
 
