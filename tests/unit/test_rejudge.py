@@ -220,6 +220,69 @@ def test_what_the_file_does_not_have_is_not_judged(home, written, capsys):
     assert silent == ["EQN", "RSP", "OCC", "CYCLE HEAT", "modes", "envelope"]
 
 
+FALLS = """\
+MATERIAL STEEL E=203e9
+SECTION P OD=0.1 WALL=0.01
+PIPE 10 20 DX=1
+SUPPORT 10 +Y MU=0.1
+SUPPORT 20 +Y MU=0.1 X RX RY RZ
+FORCE 10 F1 FX=1 FY=-1 FZ=1000
+FORCE 10 F2 FY=-100
+CASE REST = F2
+CASE PUSH = F1
+CASE MORE = F2 FROM=PUSH
+CASE ABOVE = F2 ABOUT=PUSH
+COMB BOTH = REST + PUSH
+MODES 2 ABOUT=PUSH
+"""
+
+
+def test_what_stands_on_a_case_without_numbers_is_not_judged(home, capsys):
+    (home / "falls.inp").write_text(FALLS)
+    assert leave("run", "falls.inp") == 1
+    capsys.readouterr()
+    assert leave("verify", "--certificate", "falls.json") == 0
+    said = capsys.readouterr().out.splitlines()
+    assert [line.split(":")[0] for line in said if ": holds: " in line] == ["REST", "envelope"]
+    # even where the file claims that it has numbers
+    report = json.loads((home / "falls.json").read_text())
+    for name in ("MORE", "ABOVE", "BOTH"):
+        report["cases"][name] = report["cases"]["REST"]
+    (home / "falls.json").write_text(json.dumps(report))
+    assert leave("verify", "--certificate", "falls.json") in (0, 1)
+    said = capsys.readouterr()
+    for name in ("MORE", "ABOVE", "BOTH"):
+        assert f"{name}: not judged: it stands on PUSH, not judged" in said.out
+    assert said.err == ""
+
+
+@pytest.mark.parametrize(
+    ("place", "value"),
+    [
+        (("modes",), 5),
+        (("modes", "mesh_hz"), -1.0),
+        (("modes", "shapes"), []),
+        (("modes", "shapes_low"), "none"),
+        (("modes", "participation"), [[1.0]]),
+        (("cycles",), []),
+        (("cycles", "HEAT", "states"), [1, 2]),
+        (("cases", "EQN", "total"), {}),
+        (("envelope",), {}),
+    ],
+)
+def test_tables_of_another_shape_fail_by_name(home, written, place, value, capsys):
+    report = json.loads(written)
+    inside = report
+    for key in place[:-1]:
+        inside = inside[key]
+    inside[place[-1]] = value
+    (home / "b.json").write_text(json.dumps(report))
+    assert leave("verify", "--certificate", "b.json") == 1
+    said = capsys.readouterr()
+    assert ": FAILS: " in said.out
+    assert said.err == ""
+
+
 def test_other_answers_are_not_judged(home, capsys):
     assert leave("run", MODELS / "strut_three.inp", "-o", home, "--spread", 3) == 0
     capsys.readouterr()

@@ -49,6 +49,11 @@ class Judged:
         return f"worst {found.worst:.1e}, {found.where}"
 
 
+def has_numbers(run: "Run", name: str) -> bool:
+    """Whether a case was judged, and has numbers."""
+    return name in run.found and run.found[name].state is not None
+
+
 def start_of(
     run: "Run", case: Case, structure: Structure, question: Question, origin: Origin | None
 ) -> tuple[Question, Origin]:

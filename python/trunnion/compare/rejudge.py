@@ -12,7 +12,7 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from trunnion.arrays import CaseResult, FrozenBreak, HangerChoice
-from trunnion.compare.judgement import Verdict, judged, start_of
+from trunnion.compare.judgement import Verdict, has_numbers, judged, start_of
 from trunnion.compare.written import changed
 from trunnion.model import Case, Comb, Model
 from trunnion.results.combine import combine, parents
@@ -73,7 +73,7 @@ def _guarded(run: "Run", case: Case | Comb, stored: Stored) -> Verdict:
     if not stored["converged"]:
         run.found[case.name] = _nothing(run, case)
         return Verdict(case.name, None, f"no numbers: {stored.get('cause')}")
-    missing = [name for name in _parents(case) if name not in run.found]
+    missing = [name for name in _parents(case) if not has_numbers(run, name)]
     if missing:
         return Verdict(case.name, None, f"it stands on {' '.join(missing)}, not judged")
     if isinstance(case, Comb):

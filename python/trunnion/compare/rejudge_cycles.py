@@ -31,7 +31,8 @@ def judge_cycle(run: "Run", cycle: Cycle, report: Mapping[str, Any]) -> Verdict:
             return Verdict(name, None, f"not followed to its end: {stored['cause']}")
         if "states" not in stored:
             return Verdict(name, None, "the file has no states of its steps: run the deck again")
-        missing = [case for case in (*cycle.cases, cycle.start) if case and case not in run.found]
+        names = [name for name in (*cycle.cases, cycle.start) if name]
+        missing = [name for name in names if name not in run.found]
         if missing:
             return Verdict(name, None, f"it stands on {' '.join(missing)}, not judged")
         return _judge(run, cycle, name, stored)
