@@ -56,8 +56,10 @@ def shown(ours: float, printed: str, allowed: float, more: int = 1) -> str:
     """Our number with more digits than the print; a print of zero has no digits to follow."""
     if float(printed) == 0.0:
         return "0" if abs(ours) < 1e-3 * allowed else f"{ours:.2g}"
-    text = f"{ours:#.{digits(printed) + more}g}"
-    return text.rstrip(".")
+    count = digits(printed) + more
+    if "e" in printed.lower():
+        return f"{ours:.{count - 1}e}"
+    return f"{ours:#.{count}g}".rstrip(".")
 
 
 def _text(printed: float | str) -> str:

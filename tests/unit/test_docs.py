@@ -47,6 +47,25 @@ def test_readme_leads_to_the_front_page():
     assert "docs/index.md" in [target for _, target in links(ROOT / "README.md")]
 
 
+PLACE = re.compile(r"(?:python|fortran|tests|models|benchmarks|docs)/[\w/.-]*\w\.\w+")
+
+
+@pytest.mark.parametrize("page", READ, ids=named)
+def test_files_named_are_there(page):
+    """A path from the top, and the bare names that follow it in a line of paths alone."""
+    for text in re.findall(r"`([^`\s]+)`", page.read_text(encoding="utf-8")):
+        if PLACE.fullmatch(text):
+            assert (ROOT / text).exists(), f"{page.name}: {text}"
+    for line in page.read_text(encoding="utf-8").splitlines():
+        if re.fullmatch(r"(`[\w/.]+\.(py|f90|c)`[,; ]*)+", line):
+            folder = ROOT
+            for name in re.findall(r"`([^`]+)`", line):
+                if (ROOT / name).exists():
+                    folder = (ROOT / name).parent
+                near = (folder / name, ROOT / "python/trunnion" / name)
+                assert any(path.exists() for path in (ROOT / name, *near)), f"{page.name}: {name}"
+
+
 CALL = re.compile(r"(?:^|(?<!from)[\s(/$])trunnion ([a-z][\w-]*)(.*)")
 
 

@@ -304,6 +304,21 @@ def test_friction_without_an_answer_names_its_supports():
         build_job(model, trunnion.solve(model))
 
 
+def test_default_cases_are_cases():
+    """A deck that names none has SUS, OPE, EXP and, about OPE, one of each acceleration."""
+    model = trunnion.Model()
+    model.material("M", E=2e11, ALPHA=1e-5, DENSITY=7850)
+    model.section("P", OD=0.2, WALL=0.01)
+    model.operate(T1=170)
+    model.anchor("A")
+    model.pipe("A", "B", DX=3)
+    model.support("B", "+Y")
+    model.acceleration("U1", X=0.2)
+    job = build_job(model, trunnion.solve(model))
+    assert [case.name for case in job.scene.cases] == ["SUS", "OPE", "BY_U1"]
+    assert job.notes == ("BY_U1: linear, on the contacts that OPE left closed",)
+
+
 def test_calculix_holds_every_contact_so_it_needs_an_answer():
     model = trunnion.read(ROOT / "models/b313_s302.inp")
     results = trunnion.solve(model)

@@ -10,6 +10,7 @@ from importlib import import_module
 import numpy as np
 
 from trunnion.arrays import F8, SPRING, CaseResult, Results, System
+from trunnion.cases.default_cases import with_cases
 from trunnion.errors import Problem
 from trunnion.exports.refusals import ExportError, chosen_cases
 from trunnion.exports.scene import Scene, build_scene, stand
@@ -48,6 +49,7 @@ def build_job(
     ExportError
         Cases that cannot be written, unless `permissive` leaves them out; or none is left.
     """
+    model = with_cases(model)
     chosen, problems = chosen_cases(model, results, cases, finds=program == "opensees")
     if problems and not (permissive and chosen):
         raise ExportError(problems)

@@ -2,12 +2,11 @@
 
 `zeroLengthContactASDimplex` has the law of a resting support: k_p, k_f, mu, sliding from where the
 pipe lay.  A support that is closed on either side has two of them, a gap is a ground that stands
-back.  Where a support follows another law (one slider for several directions, all round a riser),
-or a case begins after another, they are not tried.
+back.  Where a support follows another law (one slider for several directions, all round a riser)
+or stands on another node, or a case begins after another, they are not tried.
 """
 
 from collections.abc import Mapping, Sequence
-from math import inf
 from typing import Any
 
 from trunnion.exports.opensees.parts.frame import Frame
@@ -29,21 +28,22 @@ def try_friction(job: Mapping[str, Any], name: str, held: Mapping[Any, Vector]) 
     else) that keep them from being used.
     """
     case = job["cases"][name]
-    springs = job["supports"][case["supports"]]
-    cards = job["cards"]
-    odd = [cards[rub["card"]][1] for rub in case["rubs"] if not is_plain(rub, springs, cards)]
+    cards = [job["cards"][rub["card"]] for rub in case["rubs"]]
+    odd = [c[1] for rub, c in zip(case["rubs"], cards, strict=True) if not is_plain(rub, c)]
     if odd or not case["steps"]:
         return {"not_tried": ", ".join(odd) or "the case begins after another, or at events"}
     rest = _distance(job, case, held, {})
     return {"rest": rest, "kept": _distance(job, case, held, held) if case["steps"] == 1 else None}
 
 
-def is_plain(rub: Mapping[str, Any], springs: Sequence[Any], cards: Sequence[Any]) -> bool:
-    """Tell whether friction is nothing, or of one direction without a gap between nodes."""
-    if len(rub["contacts"]) != 1:
-        return not rub["contacts"] and rub["mode"] == "open"
-    *_, minus, plus = springs[rub["contacts"][0]]
-    return cards[rub["card"]][3] is None or {minus, plus} <= {0.0, inf}
+def is_plain(rub: Mapping[str, Any], card: Sequence[Any]) -> bool:
+    """Tell whether friction is nothing, or of one direction on ground.
+
+    Between two nodes the element would take their distance for a gap.
+    """
+    if not rub["contacts"]:
+        return bool(rub["mode"] == "open")
+    return len(rub["contacts"]) == 1 and card[3] is None
 
 
 def _distance(
