@@ -7,6 +7,7 @@ import json
 from pathlib import Path
 
 import pytest
+from falls import FALLS
 
 from trunnion.cli import main
 
@@ -220,16 +221,9 @@ def test_what_the_file_does_not_have_is_not_judged(home, written, capsys):
     assert silent == ["EQN", "RSP", "OCC", "CYCLE HEAT", "modes", "envelope"]
 
 
-FALLS = """\
-MATERIAL STEEL E=203e9
-SECTION P OD=0.1 WALL=0.01
-PIPE 10 20 DX=1
-SUPPORT 10 +Y MU=0.1
-SUPPORT 20 +Y MU=0.1 X RX RY RZ
-FORCE 10 F1 FX=1 FY=-1 FZ=1000
+MORE = """\
 FORCE 10 F2 FY=-100
 CASE REST = F2
-CASE PUSH = F1
 CASE MORE = F2 FROM=PUSH
 CASE ABOVE = F2 ABOUT=PUSH
 COMB BOTH = REST + PUSH
@@ -238,7 +232,7 @@ MODES 2 ABOUT=PUSH
 
 
 def test_what_stands_on_a_case_without_numbers_is_not_judged(home, capsys):
-    (home / "falls.inp").write_text(FALLS)
+    (home / "falls.inp").write_text(FALLS + MORE)
     assert leave("run", "falls.inp") == 1
     capsys.readouterr()
     assert leave("verify", "--certificate", "falls.json") == 0

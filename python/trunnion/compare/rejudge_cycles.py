@@ -8,7 +8,7 @@ import numpy as np
 
 from trunnion.arrays import CaseResult, CycleResult, Results
 from trunnion.cases.cycles import REPEATED, change_between, set_ranges
-from trunnion.compare.judgement import Verdict, judged, start_of
+from trunnion.compare.judgement import SHAPE, Verdict, judged, start_of
 from trunnion.compare.written import differing
 from trunnion.model import Case, Cycle
 from trunnion.solver.steps import Origin
@@ -18,7 +18,6 @@ if TYPE_CHECKING:
 
 STEP = ("nodes", "nodes_low", "supports", "elements")
 WHOLE = ("cases", "loops", "repeats", "change", "steps", "supports", "elements")
-SHAPE = (KeyError, IndexError, TypeError, ValueError, AttributeError)
 
 
 def judge_cycle(run: "Run", cycle: Cycle, report: Mapping[str, Any]) -> Verdict:

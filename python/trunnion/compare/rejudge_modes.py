@@ -15,7 +15,7 @@ import numpy as np
 
 from trunnion.arrays import F8, CaseResult, ModeSet, System, sizes
 from trunnion.cases.dynamics import Dynamics
-from trunnion.compare.judgement import Verdict, has_numbers
+from trunnion.compare.judgement import SHAPE, Verdict, has_numbers
 from trunnion.compare.restored import moved
 from trunnion.compare.written import far, written
 from trunnion.errors import ModelError
@@ -33,7 +33,6 @@ APART = 1e-8  # of x M x' from the unit matrix
 FOLLOWS = ("frequency_hz", "period_s", "participation", "effective_mass", "effective_mass_percent",
            "effective_mass_sum_percent", "total_mass", "rigid", "added_nodes")  # fmt: skip
 ANSWER = ("nodes", "supports", "elements", "stresses")
-SHAPE = (KeyError, IndexError, TypeError, ValueError, AttributeError)
 Stored = Mapping[str, Any]
 
 
