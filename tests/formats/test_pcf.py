@@ -482,3 +482,56 @@ def test_options_of_a_pcf_mean_nothing_for_other_formats(tmp_path):
     path.write_text('<CAESARII VERSION="14.00" XML_TYPE="Input"/>')
     with pytest.raises(DeckError, match="--anchor mean nothing for a CAESAR II input XML"):
         read_any(path, options=Options(anchors=("10",)))
+
+
+def test_open_ends_that_do_not_face_each_other_are_two_ends(load):
+    """A stub that ends 90 mm beside the end of another pipe is no gap of the line."""
+    run = pipe((0, 0, 0), (1000, 0, 0))
+    model = load(HEADER + run + pipe((1000, 90, -500), (1000, 90, 0))).model
+    assert len(model.nodes) == 2
+    with pytest.raises(DeckError, match=r"gap of 90\.00 mm"):
+        load(HEADER + run + pipe((1090, 0, 0), (2000, 0, 0)))
+    with pytest.raises(DeckError, match=r"gap of 40\.00 mm"):
+        load(HEADER + run + pipe((1000, 40, -500), (1000, 40, 0)))
+
+
+def test_a_set_on_branch_without_ends_stands_on_a_run_that_goes_through(load):
+    """TEE-SET-ON of a plant's export: CENTRE-POINT on the run, BRANCH1-POINT, no END-POINT."""
+    tee = block("TEE-SET-ON", centre=(500, 0, 0), branch=(500, 90, 0), branch_bore=50.0)
+    text = HEADER + pipe((0, 0, 0), (1000, 0, 0)) + tee + pipe((500, 90, 0), (500, 600, 0), 50.0)
+    model = load(text).model
+    stiff = [p for p in model.pipes if p.rigid]
+    assert len(stiff) == 1
+    assert stiff[0].delta == pytest.approx((0.0, 0.05715, 0.0))  # half of 114.3 mm
+
+
+def test_a_name_at_many_supports_is_a_type_and_no_name(load):
+    rest = "".join(support((x, 0, 0), name="VAR-SHOE-7") for x in (1000, 2000))
+    text = HEADER + pipe((0, 0, 0), (3000, 0, 0)) + rest
+    text += support((2500, 0, 0), name="VAR-SHOE-8")
+    result = load(text)
+    assert [s.name for s in result.model.supports] == [None, None, "VAR-SHOE-8"]
+    assert result.deck().count("VAR-SHOE-7") >= 2
+
+
+def test_headers_messages_and_items_of_a_plant_model(load):
+    """UID before the pipeline, MESSAGE blocks, MATERIAL-IDENTIFIER for the item."""
+    text = HEADER.replace("PIPELINE-REFERENCE", "UID 6517D368\nPIPELINE-REFERENCE")
+    text += pipe((0, 0, 0), (1000, 0, 0), MATERIAL_IDENTIFIER=3)
+    text += "MESSAGE\n    CO-ORDS 0.0 0.0 0.0\n    TEXT DL G465B\nMATERIALS\n"
+    text += "MATERIAL-IDENTIFIER 3\n    ITEM-CODE PCAD_R1s\n    DESCRIPTION Rohr 60,3x4\n"
+    table = TABLE + '\n[[rule]]\nitem = "PCAD*"\nWALL = "4mm"\n'
+    result = load(text, table)
+    assert next(iter(result.model.sections.values())).wall == 0.004
+    assert "Rohr 60,3x4" in result.deck()
+
+
+def test_decimal_commas_are_read_where_the_whole_file_has_them(load):
+    whole = load(everything())
+    commas = "\n".join(
+        line.replace(".", ",") if "POINT" in line or "CO-ORDS" in line or "WEIGHT" in line else line
+        for line in everything().split("\n")
+    ).replace("ISOGEN,FLS", "ISOGEN.FLS")
+    result = load(commas)
+    assert result.model == whole.model
+    assert any("decimal commas" in a.text for a in result.assumed)

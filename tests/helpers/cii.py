@@ -132,8 +132,8 @@ class Cii:
             "UNIFORM": self.reals,
             "WIND": self.reals,
             "OFFSETS": self.reals,
-            "ALLOWBLS": lambda r: self.blank(28 if self.version >= 14 else 26),
-            "SIF&TEES": lambda r: self.blank(14 if self.version >= 14 else 10),
+            "ALLOWBLS": self.allowables,
+            "SIF&TEES": self.sif,
             "REDUCERS": self.reducer,
             "FLANGES": lambda r: self.blank(12),
             "EQUIPMNT": lambda r: self.blank(6),
@@ -230,6 +230,17 @@ class Cii:
     def blank(self, n):
         """Write records that no model takes anything from."""
         return self.reals([1.0] * 6) * n
+
+    def allowables(self, code):
+        """The number of the piping code is the 12th value."""
+        lines = self.blank(28 if self.version >= 14 else 26)
+        return [lines[0], *self.reals([1.0] * 5 + [code or 0]), *lines[2:]]
+
+    def sif(self, r):
+        """Node and type of an intersection; None: a record of no meaning."""
+        each = 7 if self.version >= 14 else 5
+        node, kind = r or (0, 0)
+        return [*self.reals([node, kind, 0, 0, 0, 0]), *self.reals([0.0] * 6) * (2 * each - 1)]
 
     def misc_lines(self):
         lines = self.reals(e["material"] for e in self.elements)

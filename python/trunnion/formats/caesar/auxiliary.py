@@ -193,6 +193,17 @@ class Auxiliary:
             line, scaled(od, self.units.diameter), scaled(wall, self.units.wall), alpha
         )
 
+    def sifs(self, line: int) -> tuple[tuple[int, int], ...]:
+        """Read two slots of a node and the type of its intersection or weld; the rest is checks."""
+        each = self.arrays["SIF&TEES"].width // 2
+        slots = (self.columns.reals(at, 6)[:2] for at in (line, line + each))
+        return tuple((int(n), int(kind)) for n, kind in slots if 0 < n < 1e9 and 0 < kind < 100)
+
+    def code(self, line: int) -> int:
+        """Read the number of the piping code, the 12th value of the allowables."""
+        value = self.columns.reals(line + 1, 6)[5]
+        return int(value) if 0.0 <= value < 1000.0 else 0
+
     def node_names(self, line: int) -> tuple[str, str]:
         """Read the names of FROM and TO: columns 3-27 and 29-53."""
         text = self.columns.text(line)

@@ -84,6 +84,8 @@ class Elements:
             offsets=self._get("OFFSETS", pointers, aux.offsets),
             reducer=self._get("REDUCERS", pointers, aux.reducer),
             checks=tuple(name for name in CHECKS_ONLY if pointers[name]),
+            sifs=self._get("SIF&TEES", pointers, aux.sifs) or (),
+            code=self._get("ALLOWBLS", pointers, aux.code),
         )
 
     def _reals(self, line: int) -> list[float]:

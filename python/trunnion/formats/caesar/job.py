@@ -148,6 +148,9 @@ class Element:
     offsets: Offsets | None = None
     reducer: ReducerData | None = None
     checks: tuple[str, ...] = ()  # what it has for stress checks only: "SIF&TEES"
+    sifs: tuple[tuple[int, int], ...] = ()  # node and type of intersections and welds
+    material_name: str = ""
+    code: int | None = None  # number of the piping code, 0 the default one; None: not said
 
 
 @frozen

@@ -17,7 +17,7 @@ class Loads:
         self.findings = findings
         self._done: set[int] = set()  # identities: all records of an XML may stand on one line
         self._cnodes = {r.cnode for e in job.elements for r in e.restraints}
-        self._cnodes |= {h.cnode for h in job.hangers}
+        self._cnodes |= {h.cnode for h in job.hangers} | {z.vessel for z in job.nozzles}
         self._anchored = {s.node for s in model.supports if s.kind == "anchor"}
 
     def element(self, e: Element) -> None:

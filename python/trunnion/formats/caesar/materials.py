@@ -97,6 +97,31 @@ NAMES = {
 }
 
 
+# beginnings of names in capitals, without ASTM and blanks: EN numbers and grades of those families
+_CALLED: tuple[tuple[Family, tuple[str, ...]], ...] = (
+    (_CARBON, ("1.0305", "1.0345", "1.0348", "1.0352", "1.0425", "1.0460", "1.0481", "1.0565")),
+    (_CARBON, ("P235", "P265", "P295GH", "P355", "A106", "A53", "A105", "A234WP", "A333-6")),
+    (_C_MOLY, ("1.5415", "16MO3")),
+    (_CR1, ("1.7335", "1.7338", "13CRMO4", "10CRMO5")),
+    (_CR2, ("1.7380", "1.7383", "10CRMO9")),
+    (_STAINLESS, ("1.4301", "1.4306", "1.4307", "1.4401", "1.4404", "1.4432", "1.4435", "1.4436")),
+    (_STAINLESS, ("1.4541", "1.4550", "1.4571", "A312", "A358", "A182F304", "A182F316")),
+)
+_ALLOYED = ("A234WP1", "A234WP5", "A234WP9", "A234WP2", "A234WP11")  # not the carbon steels of it
+
+
+def family_by_name(name: str) -> Family | None:
+    """Give the family of a user's material by its name, where that is one of a standard."""
+    plain = name.upper().replace("ASTM", "").replace(" ", "").replace("GRADE", "")
+    if plain.replace("-", "").startswith(_ALLOYED):
+        return None
+    short = plain.replace("-", "")
+    for family, heads in _CALLED:
+        if plain.startswith(heads) or short.startswith(tuple(h.replace("-", "") for h in heads)):
+            return family
+    return None
+
+
 def name_of(number: int) -> str:
     """Name for the deck."""
     return NAMES.get(number, f"MAT{number}")

@@ -62,6 +62,7 @@ def _hangers(
 ) -> tuple[HangerData, ...]:
     """Read the defaults, the nodes, the values of each hanger, and four lists of integers."""
     rows = -(-n // 6)
+    usual = columns.reals(at, 6)  # table, variation, travel of a rigid rod, largest travel ...
     cold = columns.integers(at + 1, 5)[1] == 1
     nodes = _list(columns, at + 2, n)
     first = at + 2 + rows
@@ -82,18 +83,23 @@ def _hangers(
                 cold_load=scaled(v[4], units.force),
                 hot_load=scaled(v[5], units.force),
                 constant=scaled(v[10], units.force) if strings else 0.0,
-                variation=v[1] or 25.0,
-                rod=max(0.0, scaled(v[2], units.length)),
-                most=scaled(v[7], units.length) if 0.0 < v[7] < FREE - 0.01 else None,
+                variation=v[1] or usual[1] or 25.0,
+                rod=max(0.0, scaled(v[2] or usual[2], units.length)),
+                most=next((scaled(x, units.length) for x in (v[7], usual[3]) if _limit(x)), None),
                 cold_design=cold,
                 number=number[i],
                 cnode=cnode[i],
-                table=table[i],
+                table=table[i] or int(min(max(usual[0], 0.0), 1e6)),
                 tag=columns.string(line + 2) if strings else "",
                 free=_freed(columns, line + each if step > each else first + n * each + i),
             )
         )
     return tuple(found)
+
+
+def _limit(travel: float) -> bool:
+    """Tell whether a largest travel is one: 9999.99 stands for none."""
+    return 0.0 < travel < FREE - 0.01
 
 
 def _freed(columns: Columns, line: int) -> tuple[tuple[int, int], ...]:

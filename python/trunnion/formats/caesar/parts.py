@@ -59,12 +59,12 @@ class Parts:
         self._close(edges, closing)
 
     def _ties(self) -> dict[str, list[str]]:
-        """Labels that supports join to each other."""
+        """Labels that supports and springs join to each other."""
         found: dict[str, list[str]] = {}
-        for support in self.model.supports:
-            if support.cnode is not None:
-                found.setdefault(support.node, []).append(support.cnode)
-                found.setdefault(support.cnode, []).append(support.node)
+        ties = [(s.node, s.cnode) for s in self.model.supports if s.cnode is not None]
+        for one, other in [*ties, *((s.start, s.end) for s in self.model.springs)]:
+            found.setdefault(one, []).append(other)
+            found.setdefault(other, []).append(one)
         return found
 
     def _edges(self) -> list[Edge]:
@@ -147,14 +147,15 @@ class Parts:
             pipe = self.model.pipes[number]
             text = f"the loop at element {pipe.start}-{pipe.end} is open by {1e3 * gap:.4g} mm"
             if gap > LOOP:
-                self.findings.fault(pipe.place.line, text)
-                continue
+                more = f"{text}; it is given the missing length"
+                self.findings.leave_out(pipe.place.line, "loop", more)
             new = replace(pipe, delta=need)
             self.model.pipes[number] = new
             self.findings.renote(pipe, new)
-            self.findings.assume(
-                f"{text}: this element was given the missing length", pipe.place.line
-            )
+            if gap <= LOOP:
+                self.findings.assume(
+                    f"{text}: this element was given the missing length", pipe.place.line
+                )
 
     def _line(self, label: str) -> int:
         """Line of the first element at a label."""

@@ -7,6 +7,7 @@ from trunnion.formats.caesar.bodies import Bodies
 from trunnion.formats.caesar.geometry import Labels, size
 from trunnion.formats.caesar.job import Element, Job, Vec
 from trunnion.formats.caesar.properties import Properties
+from trunnion.formats.caesar.tees import uses_b31j
 from trunnion.formats.findings import Findings
 from trunnion.model import Bend, Model, Pipe, Support
 
@@ -43,8 +44,8 @@ class Pipes:
             bend = e.bend
             assert bend is not None
             modulus = self.model.materials[self.properties.material(e)].e
-            factor = factor_of(bend, e, corner, modulus)
-            if factor.text and factor.k != bend.k:
+            factor = factor_of(bend, e, corner, modulus, b31j=uses_b31j(self.job))
+            if factor.text and factor.k != bend.k and "B31J" not in factor.text:
                 text = f"element {e.start}-{e.end}: {factor.text}"
                 self.findings.assume(text, bend.line)
             place = self.findings.place(e.line)

@@ -74,6 +74,10 @@ class Properties:
     def _new_material(self, e: Element) -> str:
         """Make a material; the number may be unknown."""
         family = mt.FAMILIES.get(e.material)
+        called = f" ({e.material_name})" if e.material_name else ""
+        if family is None and (family := mt.family_by_name(e.material_name)) is not None:
+            text = f"material {e.material}{called} expands as {family.name}, by its name"
+            self.findings.assume(text, e.line)
         name = _unused(mt.name_of(e.material), self.model.materials)
         if e.nu and not 0.0 < e.nu < 0.5:
             self.findings.fault(e.line, f"element {e.start}-{e.end}: Poisson's ratio {e.nu:g}")
@@ -81,7 +85,7 @@ class Properties:
         if e.material == mt.PLASTIC:
             self._leave_out(e, "material 20: fibre reinforced plastic; taken as isotropic")
         elif family is None and e.material not in (mt.CUT_SHORT, mt.CUT_LONG):
-            self._leave_out(e, f"material {e.material} is not known; taken as carbon steel")
+            self._leave_out(e, f"material {e.material}{called} is not known; taken as carbon steel")
         family = family or mt.FAMILIES[1]
         late = self.job.version >= mt.LATE_VERSION
         made = mt.material_of(name, family, e.e, e.nu, e.density, late=late)

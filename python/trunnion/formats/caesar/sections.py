@@ -130,6 +130,9 @@ def _split(findings: Findings) -> dict[str, Section]:
         elif not found and line.strip():
             findings.fault(number, "text before the first section")
             return {}
+    if not found:
+        findings.fault(1, "there is no section in the file; is it cut off?")
+        return {}
     sections: dict[str, Section] = {}
     ends = [number - 1 for _, number in found[1:]] + [len(lines)]
     for (name, number), end in zip(found, ends, strict=True):

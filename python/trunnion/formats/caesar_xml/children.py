@@ -219,6 +219,10 @@ class Children:
             self.findings.leave_out(tag.line, name, f"{text}; left out")
         return None
 
+    def sif(self, tag: Tag) -> tuple[int, int]:
+        """Read SIF: node, and type of the intersection or weld; 0 where it has none."""
+        return self.numbers.node(tag, "NODE"), self.numbers.whole(tag, "TYPE")
+
     def nozzle(self, tag: Tag) -> Nozzle | None:
         """Read a flexible nozzle: its node and that of the vessel."""
         n = self.numbers

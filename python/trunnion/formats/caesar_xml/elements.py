@@ -104,6 +104,9 @@ class Elements:
             offsets=next((c.offsets(x) for x in tag.all("OFFSET")), None),
             reducer=next((c.reducer(x) for x in tag.all("REDUCER")), None),
             checks=tuple(dict.fromkeys(CHECKS[x.name] for x in tag.inside if x.name in CHECKS)),
+            sifs=tuple(s for s in map(c.sif, tag.all("SIF")) if all(s)),
+            material_name=tag.attributes.get("MATERIAL_NAME", "").strip()[:80],
+            code=next((n.whole(x, "PIPING_CODE") for x in tag.all("ALLOWABLESTRESS")), None),
         )
 
     def _once(self, tag: Tag, name: str) -> None:

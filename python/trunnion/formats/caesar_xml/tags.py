@@ -16,6 +16,7 @@ MAX_TAGS = 2_000_000
 MAX_ATTRIBUTES = 200  # of one tag
 BLANK = -1.0101
 NEAR = 1e-4
+LARGEST = 1e24  # CAD tools write 5e19 lb/in for a rigid restraint
 _NO_NUMBERS = ("", "nan", "-nan", "inf", "-inf", "1.#ind", "-1.#ind", "1.#qnan", "nan(ind)")
 
 
@@ -120,7 +121,7 @@ class Numbers:
             return None
         if value - value != 0.0 or abs(value - BLANK) < NEAR:
             return None
-        if abs(value) > 1e18:
+        if abs(value) > LARGEST:
             self.fault(tag, f'{name}="{text[:40]}" is too large')
             return None
         return _single(value, text)

@@ -5,7 +5,9 @@ indent nothing: then a block opens at a known component, header or message keywo
 is an attribute of the open block.
 """
 
+import re
 from collections.abc import Iterator
+from dataclasses import replace
 
 from trunnion.formats.findings import Findings
 from trunnion.formats.pcf.words import (
@@ -46,7 +48,7 @@ class Block:
 
 def blocks(source: Source, findings: Findings) -> list[Block]:
     """Split a file into blocks; a line that belongs to none is a fault."""
-    rows = list(_rows(source))
+    rows = _decimals(list(_rows(source)), findings)
     indented = any(deep and row.name in ("END-POINT", "CO-ORDS") for deep, row in rows)
     found: list[tuple[Attribute, list[Attribute]]] = []
     for deep, row in rows:
@@ -70,6 +72,22 @@ def _rows(source: Source) -> Iterator[tuple[bool, Attribute]]:
         if word:
             name = word.upper().strip("<>")
             yield line[0] in " \t", Attribute(name, value.strip(), number)
+
+
+def _decimals(
+    rows: list[tuple[bool, Attribute]], findings: Findings
+) -> list[tuple[bool, Attribute]]:
+    """Read 123,4 as 123.4 in a file whose coordinates have commas and no points."""
+    points = [row.value for _, row in rows if row.name in _POINTS]
+    if any("." in value for value in points) or not any(map(_COMMA.search, points)):
+        return rows
+    findings.assume(
+        "numbers have decimal commas", next(r.line for _, r in rows if r.name in _POINTS)
+    )
+    return [
+        (deep, replace(row, value=_COMMA.sub(".", row.value)) if row.name in _NUMBERS else row)
+        for deep, row in rows
+    ]
 
 
 def _opens(
@@ -96,3 +114,5 @@ def _opens(
 
 
 _POINTS = ("END-POINT", "CO-ORDS", "CENTRE-POINT", "BRANCH1-POINT")
+_NUMBERS = (*_POINTS, "BRANCH2-POINT", "WEIGHT", "START-CO-ORDS", "BEND-RADIUS", "ANGLE")
+_COMMA = re.compile(r"(?<=\d),(?=\d)")

@@ -1,16 +1,19 @@
 """Ends without a mate: gaps in the line, branches that end on a pipe, true ends."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 import numpy as np
 
 from trunnion.formats.findings import Findings
 from trunnion.formats.pcf.network import Hit, Network, Places, Run, overlaps, split
 from trunnion.formats.pcf.parts import Part
-from trunnion.system.vectors import dot, size, unit
+from trunnion.system.vectors import dot, size, sub, unit
 
 GAP = 0.1  # [m]; or two bores
-MOST_OPEN = 0.5
+NEAR = 0.05  # [m]: ends nearer than this miss each other; others must also face each other
+FACING = 0.8  # cosine between the outward direction of an end and the way to the other
+MOST_OPEN = 0.5  # of all ends; more are a list of parts
+FEW = 4  # open ends that a short line with branches may have
 
 Outside = Callable[[Part], float]  # outside diameter of a component [m], 0 if not known
 
@@ -80,6 +83,7 @@ def report_gaps(net: Network, outside: Outside, findings: Findings) -> None:
     if len(nodes) < 2:
         return
     xyz = np.array([net.xyz[n] for n in nodes])
+    at = net.at()
     told: set[int] = set()
     for i, node in enumerate(nodes):
         if node in told:
@@ -92,6 +96,8 @@ def report_gaps(net: Network, outside: Outside, findings: Findings) -> None:
                 continue
             if far[j] > max(GAP, 2.0 * outside(part)):
                 break
+            if far[j] > NEAR and not _facing(net, node, nodes[j], at):
+                continue  # two ends of their own, each of which is reported as free
             told |= {node, nodes[j]}
             text = (
                 f"gap of {1000 * far[j]:.2f} mm in the line: {part.name} ends at "
@@ -102,10 +108,22 @@ def report_gaps(net: Network, outside: Outside, findings: Findings) -> None:
             break
 
 
+def _facing(net: Network, a: int, b: int, at: Mapping[int, list[int]]) -> bool:
+    """Tell whether two open ends point at each other."""
+    way = unit(sub(net.xyz[b], net.xyz[a]))
+    for node, sign in ((a, 1.0), (b, -1.0)):
+        for number in at.get(node, ()):
+            run = net.runs[number]
+            out = unit(sub(net.xyz[node], net.xyz[run.b if run.a == node else run.a]))
+            if sign * dot(out, way) < FACING:
+                return False
+    return True
+
+
 def refuse_loose(net: Network, ports: int, findings: Findings) -> None:
     """Refuse a list of fittings that is no line."""
     loose = len(net.open_ends)
-    if ports > 4 and loose > MOST_OPEN * ports:
+    if loose > max(FEW, MOST_OPEN * ports):
         text = f"{loose} of {ports} ends have no mate: this is a list of parts, not a line"
         first = min(part.line for part in net.open_ends.values())
         findings.leave_out(first, "file", text)

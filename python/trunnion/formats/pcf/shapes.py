@@ -53,7 +53,8 @@ def form_of(part: Part, tolerance: float, findings: Findings) -> Form | None:
         shape = "bend" if part.keyword.startswith(("BEND", "ELBOW")) else "reducer"
         if part.keyword == "ELBOW-REDUCING":
             shape = "bend"
-    if shape == "olet":
+    set_on = shape == "tee" and part.centre is not None and not part.ends
+    if shape == "olet" or (set_on and len(part.branches) == 1):  # on a run that goes through
         return _olet(part, findings)
     if shape in ("tee", "ways"):
         return _tee(part, tolerance, findings)

@@ -16,6 +16,16 @@ from trunnion.system.vectors import Vec
 OPEN_ENDS = "open-ends"
 
 
+def _names(placed: Sequence[tuple[Part, int]]) -> dict[int, str]:
+    """Names of supports by the line of their record; the mark of a type stands at many."""
+    said = {part.line: name for part, _ in placed if (name := _name(part))}
+    nodes: dict[str, set[int]] = {}
+    for part, node in placed:
+        if part.line in said:
+            nodes.setdefault(said[part.line], set()).add(node)
+    return {line: name for line, name in said.items() if len(nodes[name]) == 1}
+
+
 def add_supports(
     line: Line, placed: Sequence[tuple[Part, int]], table: SideTable, findings: Findings
 ) -> None:
@@ -35,8 +45,9 @@ def add_supports(
         text = f"{said}: nothing says what it holds; name it under [supports] of the side table"
         for part in parts:
             findings.leave_out(part.line, f"support at line {part.line}", text)
+    names = _names(placed)
     for node, records in at.items():
-        _add_at(line, node, records, findings)
+        _add_at(line, node, records, names, findings)
     if any(s.kind == "support" for s in line.model.supports) and not line.model.settings.mu:
         findings.assume(
             "supports have neither friction nor gap: a PCF does not hold them (mu in the side "
@@ -45,7 +56,11 @@ def add_supports(
 
 
 def _add_at(
-    line: Line, node: int, records: Sequence[tuple[Part, Meaning]], findings: Findings
+    line: Line,
+    node: int,
+    records: Sequence[tuple[Part, Meaning]],
+    names: dict[int, str],
+    findings: Findings,
 ) -> None:
     """Add the supports of one node: plain directions together, others a card each."""
     label = line.labels.get(node)
@@ -60,7 +75,7 @@ def _add_at(
     plain_words = [w for w in words if "=" not in w and w not in ("IGNORE",) and w in _SIMPLE]
     cards = [*([" ".join(merged(plain_words))] if plain_words else [])]
     cards += [w for w in words if w not in plain_words]
-    for card in cards:
+    for number, card in enumerate(cards):
         source = [p for p, m in records if m.words == card or m.words in plain_words]
         part = source[0] if source else records[0][0]
         if card == "SPRING":
@@ -68,15 +83,16 @@ def _add_at(
             findings.assume(text, part.line)
         before = len(line.model.supports)
         try:
-            add_words(
-                line.model, label, card, findings.place(part.line), line.along(node), _name(part)
-            )
+            name = None if number else names.get(part.line)
+            add_words(line.model, label, card, findings.place(part.line), line.along(node), name)
         except DeckError as error:
             for problem in error.problems:
                 findings.fault(part.line, f"{part.name}: {problem.text}")
         for support in line.model.supports[before:]:
             reasons = ", ".join(dict.fromkeys(why.get(w, w) for w in words))
-            findings.note(support, f"line {part.line}: SUPPORT {reasons}")
+            said = _name(part) if support.name is None else None
+            mark = f", {said}" if said and said not in reasons else ""
+            findings.note(support, f"line {part.line}: SUPPORT {reasons}{mark}")
 
 
 _SIMPLE = frozenset(("+X", "-X", "X", "+Y", "-Y", "Y", "+Z", "-Z", "Z", "GUIDE", "LIMIT"))

@@ -10,7 +10,7 @@ SHAPES: dict[str, str] = {
     **dict.fromkeys(("Y-PIECE", "Y-PIECE-FITTING", "Y-PIECE-BEND"), "tee"),
     **dict.fromkeys(("OLET", "WELDOLET", "SOCKOLET", "THREDOLET", "NIPOLET", "LATROLET"), "olet"),
     **dict.fromkeys(("SWEEPOLET", "ELBOLET"), "olet"),
-    **dict.fromkeys(("REDUCER-CONCENTRIC", "REDUCER-ECCENTRIC"), "reducer"),
+    **dict.fromkeys(("REDUCER-CONCENTRIC", "REDUCER-ECCENTRIC", "REDUCER"), "reducer"),
     **dict.fromkeys(("REDUCER-CONCENTRIC-TEED", "REDUCER-ECCENTRIC-TEED"), "teed"),
     **dict.fromkeys(("FLANGE-REDUCING-CONCENTRIC", "FLANGE-REDUCING-ECCENTRIC"), "rigid"),
     **dict.fromkeys(("FLANGE", "VALVE", "INSTRUMENT", "FILTER", "TRAP"), "rigid"),
@@ -75,4 +75,4 @@ PIPELINE_WORDS = (
 
 def is_message(keyword: str) -> bool:
     """Tell whether a block is a note on the drawing, never a component."""
-    return keyword.startswith("MESSAGE-")
+    return keyword == "MESSAGE" or keyword.startswith("MESSAGE-")
