@@ -30,7 +30,7 @@ from trunnion.report.plots.supportrows import rows_of_loads, rows_of_states
 from trunnion.report.plots.supportstates import glyph_looks, signed_loads
 from trunnion.report.plots.view import isometric
 from trunnion.report.units import report_units
-from trunnion.results.supports import card_loads, card_states
+from trunnion.results.supports import card_loads, card_nodes, card_states
 
 MODELS = Path(__file__).parents[2] / "models"
 HEAD = """\
@@ -189,7 +189,7 @@ def test_bends_are_arcs_and_pipes_as_wide_as_their_diameter(line):
     corner = np.array([12.0, 0.0, 0.0])
     centre = corner + np.array([-0.381, 0.0, 0.381])
     np.testing.assert_allclose(np.linalg.norm(arc - centre, axis=1), 0.381, rtol=1e-9)
-    assert len(arc) >= 10
+    assert len(arc) == 19  # 5 degrees apart
     axes = drawn["isometric"].axes[0]
     quads = [p.vertices[:4] for c in axes.collections for p in c.get_paths() if len(p) == 5]
     widths = [np.linalg.norm(q[0] - q[3]) for q in quads]
@@ -242,9 +242,9 @@ def test_the_table_says_what_the_text_report_says(line):
     table = state_table(results["OPE"], units)
     shown = said(drawn["OPE.supports"])
     for _, row in rows_of_states(results["OPE"], units):
-        if row.name.endswith("ANCHOR"):
-            continue
         assert row.name in shown
+        if row.name.endswith(("ANCHOR", "moment")):
+            continue
         line_ = next(r for r in table.splitlines() if r.split()[:2] == row.name.split()[:2])
         assert row.cells[0] in line_
         if row.cells[1]:
@@ -276,6 +276,26 @@ def test_arrows_are_as_long_as_loads_and_point_along_them(line):
         assert (tip - tail) @ flat > 0.0
     np.testing.assert_allclose(ratios, ratios[0], rtol=1e-9)
     assert len(ratios) >= 3
+
+
+def test_loads_press_on_rests_and_pull_at_hangers(of_model):
+    """Arrow heads are at the rest, feet at the hanger, where both carry weight downwards."""
+    drawn, results = of_model("hangers")
+    case = results["OPE"]
+    found = next(
+        c
+        for c in drawn["OPE.supports"].axes[0].findobj(PolyCollection)
+        if to_hex(c.get_facecolor()[0]) == plots.palette.ARROW
+    )
+    order = np.argsort(-np.linalg.norm(card_loads(case)[:, :3], axis=1), kind="stable")
+    nodes = np.array(card_nodes(case.system))[order]
+    at = isometric(case.system.xyz, case.system.up).flat(case.system.xyz[nodes])
+    kinds = [case.system.cards[i].kind for i in order]
+    assert set(kinds) == {"anchor", "hanger", "support"}
+    for kind, place_, path in zip(kinds, at, found.get_paths(), strict=True):
+        above = path.vertices[:7, 1].max() > place_[1] + 0.1
+        below = path.vertices[:7, 1].min() < place_[1] - 0.5
+        assert (above, below) == ((False, True) if kind == "hanger" else (True, False)), kind
 
 
 def test_displacements_are_drawn_by_the_factor_that_is_stated(line):
@@ -470,6 +490,27 @@ def test_labels_take_no_place_that_is_taken():
         assert abs(label.y - 30.0) >= 3.0 + 4.0
         assert 10.0 <= label.x <= 90.0
         assert 4.0 <= label.y <= 56.0
+
+
+def test_what_is_left_out_of_a_file_stands_in_every_picture_and_north_where_it_is_known(tmp_path):
+    from pcf_lines import everything
+
+    from trunnion.formats import read_any
+    from trunnion.formats.options import Options
+
+    (tmp_path / "line.pcf").write_text(everything())
+    options = Options(anchors=("open-ends",))
+    model = read_any(tmp_path / "line.pcf", permissive=True, options=options).model
+    n = len(model.origin.left_out)
+    assert n > 1
+    drawn, _ = made(model)
+    for name, figure in drawn.items():
+        assert f"LEFT OUT: {n} features of line.pcf" in said(figure), name
+    assert "Y north" in said(drawn["isometric"])
+
+
+def test_north_is_not_invented(line):
+    assert "north" not in said(line[2]["isometric"])
 
 
 def test_names_of_files_are_safe_and_stay_apart():

@@ -42,7 +42,7 @@ def figures(results: Results, model: Model, stem: str) -> Iterator[tuple[str, Fi
     if results.base is None and not results.cases:
         return
     units, title = report_units(model.units), results.title or stem
-    one = subject(results.system, north_of(model))
+    one = subject(results.system, north_of(model), caution_of(model))
     yield "isometric", isometric(one, units, title)
     for case in results.cases.values():
         name = safe(case.name)
@@ -57,11 +57,11 @@ def figures(results: Results, model: Model, stem: str) -> Iterator[tuple[str, Fi
         if len(spread.starts.answers) > 1:
             yield f"{safe(spread.case)}.answers", answers(one, spread, units, title)
     for cycle in results.cycles.values():
-        yield f"{safe(cycle.name)}.cycle", cycle_loads(cycle, units, title)
+        yield f"{safe(cycle.name)}.cycle", cycle_loads(one, cycle, units, title)
     if results.modes is not None:
         yield "modes", mode_shapes(one, results.modes, title)
     if results.cases:
-        yield "convergence", convergence(results, title)
+        yield "convergence", convergence(one, results, title)
 
 
 def has_shape(name: str, results: Results, model: Model) -> bool:
@@ -77,6 +77,14 @@ def has_shape(name: str, results: Results, model: Model) -> bool:
         return case.linear
     known = [p for p in parents(comb.expression) if p in results.cases]
     return is_linear(comb.expression) and all(has_shape(p, results, model) for p in known)
+
+
+def caution_of(model: Model) -> str:
+    """Say that the model does not have all of the file that it came from."""
+    if model.origin is None or not model.origin.left_out:
+        return ""
+    n = len(model.origin.left_out)
+    return f"LEFT OUT: {n} feature{'s' * (n != 1)} of {model.origin.file}, see the text report"
 
 
 def north_of(model: Model) -> F8 | None:

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from trunnion.arrays import F8, CaseResult, Spread
 from trunnion.report.plots.arrows import block_arrows, load_arrows
 from trunnion.report.plots.drawing import lone_triad
-from trunnion.report.plots.glyphs import glyphs, leaning, stand
+from trunnion.report.plots.glyphs import glyphs, leaning, pulled, stand
 from trunnion.report.plots.legend import mark
 from trunnion.report.plots.page import EDGE, FOOT, NORMAL, SMALL, TOP, WIDTH, fitted, page, put
 from trunnion.report.plots.palette import GREY
@@ -19,6 +19,7 @@ from trunnion.report.plots.supportstates import glyph_looks
 from trunnion.report.units import ReportUnits
 from trunnion.results.supports import card_loads, card_nodes
 
+NOTE = "loads are those of the pipe ON THE RESTRAINT"
 MOST, ACROSS = 6, 3
 PANEL = 5.0  # height of a row of panels [in]
 CORNER = 1.15  # height of the strip with the triad [in]
@@ -37,7 +38,7 @@ def answers(found: Subject, spread: Spread, units: ReportUnits, title: str) -> F
     what = (
         f"{spread.case} = {shown[0].text}:  {len(every)} certified answers to the same loads{more}"
     )
-    figure = page(title, what, "loads are those of the pipe ON THE RESTRAINT", height=height)
+    figure = page(title, what, found.noted(NOTE), height=height)
     wide = (WIDTH - 2 * EDGE) / min(ACROSS, len(shown))
     most = max(float(np.linalg.norm(card_loads(c)[:, :3], axis=1).max(initial=0.0)) for c in shown)
     apart = _apart(shown)
@@ -62,10 +63,10 @@ def _panel(
     looks = glyph_looks(case, bodies)
     draw_model(frame, found, plain_faces(found.system, found.course), looks, bodies, standing)
     load = card_loads(case)[:, :3]
-    lean = np.einsum("ij,ij->i", load, leaning(standing, bodies)) < 0.0
+    pulls = pulled(load, leaning(standing, bodies))
     arrows = load_arrows(
         frame, standing.at, standing.radius, load, [False] * len(load),
-        pulls=lean.tolist(), most=most,
+        pulls=pulls.tolist(), most=most,
     )  # fmt: skip
     space = occupied(frame, found, None, bodies, corner=False)
     block_arrows(space, frame, arrows)

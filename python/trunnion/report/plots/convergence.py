@@ -25,6 +25,7 @@ from trunnion.report.plots.page import (
     put,
 )  # fmt: skip
 from trunnion.report.plots.palette import GREY, INK, PALE, STATES
+from trunnion.report.plots.scene import Subject
 from trunnion.results.supports import cause_of, is_good
 
 PANELS = 9  # cases drawn on their own
@@ -86,7 +87,7 @@ def phase_of(what: str) -> str:
     return next((key for key in PHASES if what.startswith(key)), what)
 
 
-def convergence(results: Results, title: str) -> Figure:
+def convergence(found: Subject, results: Results, title: str) -> Figure:
     """Draw a panel a case that was iterated, and the certificates of all."""
     cases = list(results.cases.values())
     iterated = [case for case in cases if case.history]
@@ -95,7 +96,7 @@ def convergence(results: Results, title: str) -> Figure:
     listed = cases[:ROWS]
     below = 1.0 + ROW * max(len(listed), 2)
     height = TOP + rows * PANEL + (0.35 if rows else 0.0) + below + FOOT
-    figure = page(title, _headline(cases, iterated, chosen), _note(), height=height)
+    figure = page(title, _headline(cases, iterated, chosen), found.noted(_note()), height=height)
     top = height - TOP
     if chosen:
         top = _panels(figure, chosen, top)

@@ -23,6 +23,7 @@ from trunnion.report.plots.page import (
     put,
 )  # fmt: skip
 from trunnion.report.plots.palette import GREY, PALE, Look
+from trunnion.report.plots.scene import Subject
 from trunnion.report.units import ReportUnits
 from trunnion.results.supports import card_loads, is_good
 
@@ -71,21 +72,22 @@ def _alike(a: F8, b: F8, least: float) -> bool:
     return bool(np.abs(a - b).max() <= least)
 
 
-def cycle_loads(cycle: CycleResult, units: ReportUnits, title: str) -> Figure:
+def cycle_loads(found: Subject, cycle: CycleResult, units: ReportUnits, title: str) -> Figure:
     """Draw the loads on restraints of widest range against the steps of a cycle."""
     what = f"CYCLE {cycle.name} = {', '.join(cycle.cases)}:  {verdict(cycle)}"
-    figure = page(title, what, "loads are those of the pipe ON THE RESTRAINT", height=HEIGHT)
-    found, q = traces(cycle), units.force
+    note = found.noted("loads are those of the pipe ON THE RESTRAINT")
+    figure = page(title, what, note, height=HEIGHT)
+    courses, q = traces(cycle), units.force
     x, y = WIDTH - EDGE - PANEL, HEIGHT - TOP - 0.1
-    if not found:
+    if not courses:
         legend.lines(figure, EDGE, y, WIDTH - 2 * EDGE, ["no load changes over the cycle"])
         return figure
     axes = area(figure, EDGE + 0.85, FOOT + 0.95, WIDTH - 2 * EDGE - PANEL - 1.15, y - FOOT - 1.15)
-    n = np.arange(len(found[0].values))
+    n = np.arange(len(courses[0].values))
     axes.axhline(0.0, color=PALE, lw=0.8, zorder=0)
     y = legend.heading(figure, x, y, "WIDEST RANGES OVER ALL STEPS")
     cards = cycle.path[0].system.cards
-    for i, trace in enumerate(found):
+    for i, trace in enumerate(courses):
         look = Look("", COLOURS[i], MARKS[i], filled=i < len(COLOURS))
         shown = trace.values * q.factor
         axes.plot(n, shown, color=look.colour, marker=look.mark, ms=5, lw=1.4, mew=0)

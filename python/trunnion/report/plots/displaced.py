@@ -14,20 +14,19 @@ from trunnion.report.plots.drawing import Frame, length_bar, nice, triad
 from trunnion.report.plots.glyphs import glyphs, stand
 from trunnion.report.plots.labels import Space
 from trunnion.report.plots.page import EDGE, FOOT, HEIGHT, NORMAL, TOP, WIDTH, area, certified, page
-from trunnion.report.plots.paint import Paint, draw
-from trunnion.report.plots.palette import FIELD, GHOST, INK, PALE, PAPER, Look
-from trunnion.report.plots.pipe import half_widths, paint_pipes, plain_faces
+from trunnion.report.plots.palette import FIELD, INK, PAPER, Look
+from trunnion.report.plots.pipe import half_widths
 from trunnion.report.plots.scene import (
     Subject,
     block_pipes,
+    draw_ghost,
     draw_model,
     frame_of,
-    label_nodes,
-    label_order,
+    label_model,
     occupied,
 )
 from trunnion.report.units import ReportUnits
-from trunnion.results.supports import card_nodes, solved
+from trunnion.results.supports import solved
 
 PANEL = 2.2
 PLACE = EDGE, FOOT, WIDTH - 2 * EDGE - PANEL - 0.15, HEIGHT - TOP - FOOT
@@ -75,16 +74,13 @@ def displaced(
     course, system, q = found.course, case.system, units.movement
     m = movement(found, case, has_shape=has_shape)
     at = course.at + m.factor * m.move
-    drawn = f"displacements drawn x {m.factor:g}" if has_shape else "largest sizes, without a shape"
-    figure = page(title, f"{case.name} = {case.text}:  {drawn}", _note(case, has_shape=has_shape))
+    drawn = f"displacements drawn x {m.factor:.9g}"
+    drawn = drawn if has_shape else "largest sizes, without a shape"
+    note = found.noted(_note(case, has_shape=has_shape))
+    figure = page(title, f"{case.name} = {case.text}:  {drawn}", note)
     frame = frame_of(figure, PLACE, found, at)
     if m.factor:
-        ghost = Paint()
-        grey = plain_faces(found.system, course, GHOST, GHOST)
-        paint_pipes(ghost, frame, found.system, course, course.at, grey, rim=PALE)
-        draw(frame, ghost, zorder=1.0)
-    state = solved(case)
-    nodes = system.xyz + m.factor * (state.u + state.u_low)[:, :3]
+        draw_ghost(frame, found)
     standing = stand(found.system, frame, course)
     bodies = glyphs(found.system, standing)
     norm = Normalize(0.0, float(m.size.max(initial=0.0)) * q.factor or 1.0)
@@ -97,33 +93,22 @@ def displaced(
     x, y = WIDTH - EDGE - PANEL, HEIGHT - TOP - 0.1
     y = _bar(figure, x, y, norm, f"displacement [{q.unit}]")
     y = legend.heading(figure, x, y, "LARGEST")
-    y = legend.lines(figure, x, y, PANEL, _largest(found, case, m, units))
+    y = legend.lines(figure, x, y, PANEL, _largest(found, m, units))
     if m.factor:
-        legend.lines(
-            figure,
-            x,
-            y - 0.12,
-            PANEL,
-            ["grey: undeformed; restraints", "stand where they are"]
-            if bodies
-            else ["grey: undeformed"],
-        )
+        grey = ["grey: undeformed; restraints", "stand where they are"]
+        legend.lines(figure, x, y - 0.12, PANEL, grey if bodies else ["grey: undeformed"])
     space = occupied(frame, found, at, bodies)
     block_pipes(space, frame, found, course.at)
     _mark_largest(frame, space, at, course.radius, m)
-    held = card_nodes(system)
-    order, bold = label_order(system, held), set(held)
-    label_nodes(
-        frame, space, [system.labels[i] for i in order], nodes[order],
-        bold=[i in bold for i in order],
-    )  # fmt: skip
+    state = solved(case)
+    label_model(frame, space, system, system.xyz + m.factor * (state.u + state.u_low)[:, :3])
     return figure
 
 
 def _note(case: CaseResult, *, has_shape: bool) -> str:
     text = certified(case)
     if not has_shape:
-        text += "; largest displacements of a point need not occur together, so no shape is drawn"
+        text += "; root of the squares of a point's largest DX DY DZ, which need not occur together"
     return text
 
 
@@ -138,7 +123,7 @@ def _bar(figure: Figure, x: float, y: float, norm: Normalize, text: str) -> floa
     return y - height - 0.5
 
 
-def _largest(found: Subject, case: CaseResult, m: Movement, units: ReportUnits) -> list[str]:
+def _largest(found: Subject, m: Movement, units: ReportUnits) -> list[str]:
     """Tell the largest displacement, and of each direction, and where they are."""
     q = units.movement.showing(float(m.size.max(initial=0.0)))
     rows = [("", m.size), *((f"D{c}", m.move[:, k]) for k, c in enumerate("XYZ"))]

@@ -141,7 +141,7 @@ def length_bar(frame: Frame, length: Quantity) -> None:
     frame.axes.plot(x, y, color=INK, lw=1.1, solid_joinstyle="miter", zorder=6)
     x0, y0 = frame.metres(np.array([20.0 + points, 10.0]))
     frame.axes.text(
-        x0, y0, f"{value:g} {length.unit} along the axes", fontsize=SMALL, color=INK, va="center"
+        x0, y0, f"{value:.9g} {length.unit} along the axes", fontsize=SMALL, color=INK, va="center"
     )
 
 

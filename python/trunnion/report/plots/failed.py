@@ -26,7 +26,8 @@ COLUMNS = 46  # characters of a line of the cause
 def failed(found: Subject, case: CaseResult, units: ReportUnits, title: str) -> Figure:
     """Draw the model with its restless restraints marked; there are no numbers in it."""
     system = case.system
-    figure = page(title, f"{case.name} = {case.text}:  NOT CONVERGED, no numbers")
+    what = f"{case.name} = {case.text}:  NOT CONVERGED, no numbers"
+    figure = page(title, what, found.caution)
     frame = frame_of(figure, PLACE, found)
     standing = stand(system, frame, found.course)
     bodies = glyphs(system, standing)

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from trunnion.arrays import F8, Contacts, System
+from trunnion.arrays import B1, F8, Contacts, System
 from trunnion.frozen import frozen
 from trunnion.report.plots.drawing import Frame
 from trunnion.report.plots.paint import Paint
@@ -19,6 +19,7 @@ from trunnion.results.balance import end_axes
 from trunnion.results.supports import card_nodes
 
 SOFT = 1e11  # N/m: what is softer is drawn as a spring
+PULLS = 0.5  # cosine to the restraint's body from which on a load pulls at it
 LENGTHWISE = 0.85  # cosine to the pipe from which a direction is along it
 MANY = 60  # supports from which on cones have fewer sides
 SHARE = 0.45  # of the distance between supports: their size
@@ -65,9 +66,11 @@ def stand(system: System, frame: Frame, found: Course) -> Stand:
     half = half_widths(frame, found.radius)
     first, last = found.lines.first[:-1], found.lines.first[1:] - 1
     tangent = end_axes(system)[:, :, 0]
+    widest = np.argsort(system.od, kind="stable")  # the last one at a node stands: the run
     for end, point in ((1, last), (0, first)):
         np.maximum.at(radius, system.ends[:, end], half[point])
-        axis[system.ends[:, end]] = tangent[:, end]
+    for e in widest.tolist():
+        axis[system.ends[e]] = tangent[e]
     many = len(system.cards) > MANY
     at = system.xyz[nodes]
     room = SHARE * min(spacing(frame, at), crowding(frame, at))
@@ -89,6 +92,13 @@ def spacing(frame: Frame, at: F8) -> float:
     step = np.linalg.norm(np.diff(points, axis=0), axis=1)
     step = step[step > 1e-6]
     return float(np.median(step)) if len(step) else np.inf
+
+
+def pulled(load: F8, lean: F8) -> B1:
+    """(n,) whether loads (n, 3) pull at restraints whose bodies lean (n, 3) the other way."""
+    size = np.linalg.norm(load, axis=1) * np.linalg.norm(lean, axis=1)
+    found: B1 = np.einsum("ij,ij->i", load, lean) < -PULLS * size
+    return found
 
 
 def crowding(frame: Frame, at: F8) -> float:
@@ -186,7 +196,7 @@ def _direction(s: Stand, system: System, card: int, contact: int) -> Glyph:
             if kind == "spring":
                 found.wires.append(_coil(at + r * out, out, 1.9 * g, 0.35 * g))
                 found.bodies.append(_box(at + (r + 1.9 * g) * out, out, (0.1, 0.5, 0.5), g))
-            elif kind != "rest" and abs(out @ s.axis[card]) > LENGTHWISE:
+            elif kind not in ("rest", "guide") and abs(out @ s.axis[card]) > LENGTHWISE:
                 below = at - (r + 0.42 * g) * _across(s.axis[card], s.up)
                 found.bodies.append(_cone(below + 0.12 * g * out, out, g, 0.34 * g, s.sides))
             elif kind == "guide":

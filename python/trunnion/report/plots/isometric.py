@@ -5,7 +5,7 @@ from matplotlib.figure import Figure
 
 from trunnion.arrays import F8
 from trunnion.report.plots import legend
-from trunnion.report.plots.drawing import length_bar, triad
+from trunnion.report.plots.drawing import Frame, length_bar, triad
 from trunnion.report.plots.glyphs import glyphs, stand
 from trunnion.report.plots.page import EDGE, FOOT, HEIGHT, TOP, WIDTH, page
 from trunnion.report.plots.palette import TYPES
@@ -14,12 +14,10 @@ from trunnion.report.plots.scene import (
     Subject,
     draw_model,
     frame_of,
-    label_nodes,
-    label_order,
+    label_model,
     occupied,
 )
 from trunnion.report.units import ReportUnits
-from trunnion.results.supports import card_nodes
 
 PANEL = 2.75  # width of the panel at the right [in]
 PLACE = EDGE, FOOT, WIDTH - 2 * EDGE - PANEL - 0.15, HEIGHT - TOP - FOOT
@@ -34,23 +32,16 @@ def isometric(found: Subject, units: ReportUnits, title: str) -> Figure:
     count = (
         f"{len(system.labels)} nodes, {len(system.kind)} elements, {len(system.cards)} restraints"
     )
-    figure = page(title, f"Isometric with supports: {count}", NOTE)
+    figure = page(title, f"Isometric with supports: {count}", found.noted(NOTE))
     frame = frame_of(figure, PLACE, found)
     standing = stand(system, frame, course)
     bodies = glyphs(system, standing)
     looks = [TYPES[glyph.kind] for glyph in bodies]
-    paint = draw_model(frame, found, plain_faces(system, course), looks, bodies, standing)
-    del paint
+    draw_model(frame, found, plain_faces(system, course), looks, bodies, standing)
     linked = _links(found, frame)
     triad(frame, system.up, found.north)
     length_bar(frame, units.length)
-    space = occupied(frame, found, None, bodies)
-    held = card_nodes(system)
-    order, bold = label_order(system, held), set(held)
-    label_nodes(
-        frame, space, [system.labels[i] for i in order], system.xyz[order],
-        bold=[i in bold for i in order],
-    )  # fmt: skip
+    label_model(frame, occupied(frame, found, None, bodies), system, system.xyz)
     x, y = WIDTH - EDGE - PANEL, HEIGHT - TOP - 0.05
     if bodies:
         y = legend.heading(figure, x, y, "RESTRAINTS")
@@ -60,20 +51,22 @@ def isometric(found: Subject, units: ReportUnits, title: str) -> Figure:
         y -= 0.15
     else:
         y = legend.lines(figure, x, y, PANEL, ["no restraints"]) - 0.1
-    y = legend.heading(figure, x, y, "PIPES (outside diameter x wall)")
-    y = legend.lines(figure, x, y, PANEL, _sections(found, units)) - 0.1
-    if any(part.type not in ("pipe", "bend", "reducer") for part in system.parts):
-        y = legend.lines(figure, x, y, PANEL, ["darker: stiff body, joint, spring"]) - 0.1
-    y = legend.heading(figure, x, y, "SIZE")
-    legend.lines(figure, x, y, PANEL, _sizes(found, units))
+    _facts(figure, x, y, found, units)
     return figure
 
 
-def _links(found: Subject, frame: object) -> int:
-    """Draw a dashed line from each support that stands on another node to that node."""
-    from trunnion.report.plots.drawing import Frame
+def _facts(figure: Figure, x: float, y: float, found: Subject, units: ReportUnits) -> None:
+    """List sections and sizes."""
+    y = legend.heading(figure, x, y, "PIPES (outside diameter x wall)")
+    y = legend.lines(figure, x, y, PANEL, _sections(found, units)) - 0.1
+    if any(part.type not in ("pipe", "bend", "reducer") for part in found.system.parts):
+        y = legend.lines(figure, x, y, PANEL, ["darker: stiff body, joint, spring"]) - 0.1
+    y = legend.heading(figure, x, y, "SIZE")
+    legend.lines(figure, x, y, PANEL, _sizes(found, units))
 
-    assert isinstance(frame, Frame)
+
+def _links(found: Subject, frame: Frame) -> int:
+    """Draw a dashed line from each support that stands on another node to that node."""
     system, count = found.system, 0
     number = {label: i for i, label in enumerate(system.labels)} | system.alias
     for card in system.cards:

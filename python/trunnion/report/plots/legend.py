@@ -7,11 +7,13 @@ import numpy as np
 from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 
+from trunnion.arrays import F8
 from trunnion.report.plots.drawing import Frame
 from trunnion.report.plots.glyphs import Glyph, Stand, glyphs, paint_glyphs
 from trunnion.report.plots.page import NORMAL, SMALL, area, extent, fitted, put
 from trunnion.report.plots.paint import Paint, draw
 from trunnion.report.plots.palette import GREY, PIPE, RIM, Look
+from trunnion.report.plots.pipe import OUTLINE
 from trunnion.report.plots.scene import Subject
 
 ICON = 0.62, 0.42  # width and height [in]
@@ -89,7 +91,7 @@ def _icon(
     draw(small, paint, clip=False)
 
 
-def _piece(paint: Paint, frame: Frame, at: np.ndarray, axis: np.ndarray, radius: float) -> None:
+def _piece(paint: Paint, frame: Frame, at: F8, axis: F8, radius: float) -> None:
     """Add a bit of pipe."""
     step = frame.view.flat(axis)
     length = float(np.linalg.norm(step))
@@ -98,7 +100,7 @@ def _piece(paint: Paint, frame: Frame, at: np.ndarray, axis: np.ndarray, radius:
     step = step / length
     normal, middle = np.array([-step[1], step[0]]), frame.flat(at)
     depth = np.array([float(frame.view.depth(at))])
-    for grow, colour in ((0.7 * frame.scale, RIM), (0.0, PIPE)):
+    for grow, colour in ((OUTLINE * frame.scale, RIM), (0.0, PIPE)):
         a, b = PIECE * frame.scale * step, (radius + grow) * normal
         quad = np.stack([middle - a - b, middle + a - b, middle + a + b, middle - a + b])
         shade = np.array([to_rgba(colour)])

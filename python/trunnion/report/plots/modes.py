@@ -11,9 +11,9 @@ from trunnion.report.plots.convergence import across
 from trunnion.report.plots.drawing import lone_triad
 from trunnion.report.plots.page import EDGE, FOOT, NORMAL, SMALL, TOP, WIDTH, page, put
 from trunnion.report.plots.paint import Paint, draw
-from trunnion.report.plots.palette import FIELD, GHOST, PALE
-from trunnion.report.plots.pipe import Course, paint_pipes, plain_faces
-from trunnion.report.plots.scene import Subject, frame_of, subject
+from trunnion.report.plots.palette import FIELD
+from trunnion.report.plots.pipe import Course, paint_pipes
+from trunnion.report.plots.scene import Subject, draw_ghost, frame_of, subject
 from trunnion.results.interior import section_axes
 from trunnion.results.tables import mass_percent
 
@@ -27,7 +27,7 @@ MARGIN = 22.0  # around the model [pt]
 def mode_shapes(found: Subject, modes: ModeSet, title: str) -> Figure:
     """Draw the lowest modes, their largest translation as long in each panel."""
     own = subject(modes.system)
-    own = Subject(own.system, own.course, found.view, found.north)
+    own = Subject(own.system, own.course, found.view, found.north, found.caution)
     count = min(len(modes.frequency), MOST)
     row = across(count)
     rows = ceil(count / row)
@@ -38,7 +38,7 @@ def mode_shapes(found: Subject, modes: ModeSet, title: str) -> Figure:
     what = f"Natural modes: {more}; the largest translation is as long in each panel"
     if count == 0:
         what = "Natural modes: none below the cut-off frequency"
-    figure = page(title, what, _note(modes), height=height)
+    figure = page(title, what, found.noted(_note(modes)), height=height)
     wide = (WIDTH - 2 * EDGE) / row
     share = mass_percent(modes)
     for i in range(count):
@@ -73,10 +73,7 @@ def _panel(
     most = float(size.max(initial=0.0)) or 1.0
     at = course.at + SHOWN * whole / most * move
     frame = frame_of(figure, place, own, at, margin=MARGIN, corner=False)
-    ghost = Paint()
-    grey = plain_faces(own.system, course, GHOST, GHOST)
-    paint_pipes(ghost, frame, own.system, course, course.at, grey, rim=PALE)
-    draw(frame, ghost, zorder=1.0)
+    draw_ghost(frame, own)
     value = 0.5 * (size[course.parts] + size[course.parts + 1]) / most
     paint = Paint()
     paint_pipes(paint, frame, own.system, course, at, colormaps[FIELD](value))

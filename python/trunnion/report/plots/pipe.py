@@ -17,7 +17,7 @@ Index = NDArray[np.intp]
 POINTS = 24_000  # of all elements together, about: what a picture can show
 PARTS = 20  # of a straight pipe
 JOINT = 0.75  # radius of an expansion joint, of that of its pipes
-COARSE = 10.0  # degrees of a part of a bend
+FINE, COARSE = 5.0, 15.0  # degrees of a part of a bend; of large models
 LEAST = 1.1  # half of the least width [pt]
 SEEN = 1.4  # half width from which on the gap at a corner would be seen [pt]
 SEAM = 0.9  # width of the edges that close the seams between parts [pt]
@@ -48,7 +48,7 @@ class Course:
 def course(system: System) -> Course:
     """Cut a model into parts fit for a picture."""
     room = POINTS // max(len(system.kind), 1) - 1
-    lines = cut(system, int(np.clip(room, 1, PARTS)), COARSE)
+    lines = cut(system, int(np.clip(room, 1, PARTS)), FINE if room > PARTS else COARSE)
     at, _, radius = shape(system, lines)
     return Course(lines, at, np.where(radius > 0.0, radius, _joints(system)[lines.element]))
 
@@ -72,7 +72,6 @@ def paint_pipes(
     faces: F8,
     *,
     rim: str = RIM,
-    thin: bool = False,
 ) -> None:
     """Add the pipes of a model.
 
@@ -80,15 +79,12 @@ def paint_pipes(
     ----------
     at : (n, 3) places of the points, displaced or not [m].
     faces : (n_part, 4) colours of the parts.
-    thin : as thin lines, whatever the diameter.
     """
     flat, depth, parts = frame.flat(at), frame.view.depth(at), found.parts
     if not len(parts):
         return
     half = half_widths(frame, found.radius)
-    if thin:
-        half = np.full_like(half, 0.8 * LEAST * frame.scale)
-    normal = _normals(flat, found.lines, parts)
+    normal = _normals(flat, parts)
     outline = OUTLINE * frame.scale
     shade = np.tile(to_rgba(rim), (len(parts), 1))
     middle = 0.5 * (depth[parts] + depth[parts + 1])
@@ -117,7 +113,7 @@ def plain_faces(system: System, found: Course, pipe: str = PIPE, body: str = BOD
     return own
 
 
-def _normals(flat: F8, lines: Lines, parts: Index) -> F8:
+def _normals(flat: F8, parts: Index) -> F8:
     """(n, 2) unit normals on paper, halfway between the parts that meet at a point."""
     step = flat[parts + 1] - flat[parts]
     length = np.linalg.norm(step, axis=1, keepdims=True)

@@ -12,9 +12,10 @@ from trunnion.report.plots.glyphs import Glyph, Stand, paint_glyphs
 from trunnion.report.plots.labels import Label, Space, foot, place
 from trunnion.report.plots.page import SMALL, extent, fitted, shown
 from trunnion.report.plots.paint import Paint, draw
-from trunnion.report.plots.palette import GREY, INK, Look
-from trunnion.report.plots.pipe import Course, course, half_widths, paint_pipes
+from trunnion.report.plots.palette import GHOST, GREY, INK, PALE, Look
+from trunnion.report.plots.pipe import Course, course, half_widths, paint_pipes, plain_faces
 from trunnion.report.plots.view import View, isometric
+from trunnion.results.supports import card_nodes
 
 DOT = 2.2  # size of a support that has no room for its body [pt]
 LONGEST = 90.0  # of a node label [pt]
@@ -24,17 +25,26 @@ CLOSE = 21.0  # distance of a label from its node then [pt]
 
 @frozen(eq=False)
 class Subject:
-    """A model made ready for its pictures."""
+    """A model made ready for its pictures.
+
+    north : unit vector, where the model's file says which way it is.  caution : what a reader of
+    every picture has to know.
+    """
 
     system: System
     course: Course
     view: View
     north: F8 | None = None
+    caution: str = ""
+
+    def noted(self, text: str) -> str:
+        """Give the foot line of a picture: what is left out of the model comes first."""
+        return f"{self.caution}; {text}" if self.caution else text
 
 
-def subject(system: System, north: F8 | None = None) -> Subject:
+def subject(system: System, north: F8 | None = None, caution: str = "") -> Subject:
     """Choose parts and view of a model."""
-    return Subject(system, course(system), isometric(system.xyz, system.up), north)
+    return Subject(system, course(system), isometric(system.xyz, system.up), north, caution)
 
 
 def outline(found: Subject, at: F8 | None = None) -> F8:
@@ -67,7 +77,7 @@ def draw_model(
     bodies: Sequence[Glyph],
     standing: Stand,
     at: F8 | None = None,
-) -> Paint:
+) -> None:
     """Draw pipes and supports in depth order; supports that stand very close as dots."""
     paint = Paint()
     where = found.course.at if at is None else at
@@ -82,7 +92,14 @@ def draw_model(
                 x, y, ls="", marker=look.mark, ms=DOT, mew=0.5, mec=look.colour,
                 mfc=look.colour if look.filled else "#ffffff", zorder=4,
             )  # fmt: skip
-    return paint
+
+
+def draw_ghost(frame: Frame, found: Subject) -> None:
+    """Draw the undeformed pipes in grey, beneath everything."""
+    ghost, system = Paint(), found.system
+    grey = plain_faces(system, found.course, GHOST, GHOST)
+    paint_pipes(ghost, frame, system, found.course, found.course.at, grey, rim=PALE)
+    draw(frame, ghost, zorder=1.0)
 
 
 def occupied(
@@ -135,6 +152,16 @@ def _spread(n: int) -> list[int]:
     """Ranks of 0 ... n-1 such that any first few of them lie evenly: their bits turned round."""
     bits = max(n - 1, 1).bit_length()
     return [int(f"{i:0{bits}b}"[::-1], 2) for i in range(n)]
+
+
+def label_model(frame: Frame, space: Space, system: System, xyz: F8) -> None:
+    """Label the nodes of a model at places (n_node, 3); those of supports stand out."""
+    held = set(card_nodes(system))
+    order = label_order(system, sorted(held))
+    label_nodes(
+        frame, space, [system.labels[i] for i in order], xyz[order],
+        bold=[i in held for i in order],
+    )  # fmt: skip
 
 
 def label_nodes(

@@ -13,6 +13,8 @@ from trunnion.report.units import Quantity, ReportUnits
 from trunnion.results.supports import STATES as WORDS
 from trunnion.results.supports import card_levels, card_loads, card_normals, without_sign
 
+ROUND_OFF = 1e-9  # of the largest moment or force: no row for less
+
 
 @frozen(eq=False)
 class Row:
@@ -27,10 +29,14 @@ class Row:
 def rows_of_states(case: CaseResult, units: ReportUnits) -> list[tuple[int, Row]]:
     """Direction words as in the text report; anchors and springs, always engaged, as cards.
 
+    These have a row for the size of their force and one for that of their moment.
+
     Each row comes with the number of its card.
     """
     rows, system = state_rows(case), case.system
     levels, normals = card_levels(case), card_normals(case)
+    moments = np.linalg.norm(card_loads(case)[:, 3:], axis=1)
+    m = showing(units.moment, float(moments.max(initial=0.0)))
     known = np.nan_to_num(np.where(rows.turning > 0.0, 0.0, rows.normal))
     q = showing(units.force, float(max(known.max(initial=0.0), normals.max(initial=0.0))))
     found: list[tuple[int, Row]] = []
@@ -55,8 +61,11 @@ def rows_of_states(case: CaseResult, units: ReportUnits) -> list[tuple[int, Row]
     for i, card in enumerate(system.cards):
         if card.kind not in SHOWN:
             look, normal = STATES[WORDS[int(levels[i])]], float(normals[i])
-            found.append((i, Row(named(card.name, card.kind), look,
-                                 (look.text, q.text(normal), ""), normal)))  # fmt: skip
+            name = named(card.name, card.kind)
+            found.append((i, Row(name, look, (look.text, q.text(normal), ""), normal)))
+            if moments[i] > ROUND_OFF * (moments.max() + normals.max()):
+                text = f"{m.text(float(moments[i]))} {m.unit}"
+                found.append((i, Row(f"{card.label} moment", look, ("", text, ""), 0.0)))
     return sorted(found, key=lambda pair: pair[0])
 
 

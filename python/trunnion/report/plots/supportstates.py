@@ -9,7 +9,7 @@ from trunnion.arrays import F8, CaseResult
 from trunnion.report.plots import legend
 from trunnion.report.plots.arrows import Arrows, arrow, block_arrows, load_arrows
 from trunnion.report.plots.drawing import Frame, length_bar, nice, triad
-from trunnion.report.plots.glyphs import Glyph, Stand, glyphs, leaning, stand
+from trunnion.report.plots.glyphs import Glyph, Stand, glyphs, leaning, pulled, stand
 from trunnion.report.plots.page import EDGE, FOOT, HEIGHT, SMALL, TOP, WIDTH, certified, page, put
 from trunnion.report.plots.palette import ARROW, NO_STATE, STATES, Look
 from trunnion.report.plots.pipe import plain_faces
@@ -38,7 +38,7 @@ def support_states(found: Subject, case: CaseResult, units: ReportUnits, title: 
     mixed = case.gathered is not None
     system, course = found.system if mixed else case.system, found.course
     what = "loads on restraints" if mixed else "states of restraints and loads on them"
-    figure = page(title, f"{case.name} = {case.text}:  {what}", _note(case))
+    figure = page(title, f"{case.name} = {case.text}:  {what}", found.noted(_note(case)))
     frame = frame_of(figure, PLACE, found)
     standing = stand(system, frame, course)
     bodies = glyphs(system, standing)
@@ -50,7 +50,7 @@ def support_states(found: Subject, case: CaseResult, units: ReportUnits, title: 
     triad(frame, system.up, found.north)
     length_bar(frame, units.length)
     _labels(frame, found, case, bodies, arrows)
-    _panel(figure, case, units, frame, arrows)
+    _panel(figure, case, units, arrows)
     return figure
 
 
@@ -104,7 +104,7 @@ def signed_loads(case: CaseResult) -> tuple[F8, F8, list[bool]]:
 
 def _arrows(frame: Frame, case: CaseResult, standing: Stand, bodies: Sequence[Glyph]) -> Arrows:
     cards, load, both = signed_loads(case)
-    pulls = np.einsum("ij,ij->i", load, leaning(standing, bodies)[cards]) < 0.0
+    pulls = pulled(load, leaning(standing, bodies)[cards])
     return load_arrows(
         frame, standing.at[cards], standing.radius[cards], load, both, pulls=pulls.tolist()
     )
@@ -126,9 +126,8 @@ def _labels(
     )  # fmt: skip
 
 
-def _panel(
-    figure: Figure, case: CaseResult, units: ReportUnits, frame: Frame, arrows: Arrows
-) -> None:
+def _panel(figure: Figure, case: CaseResult, units: ReportUnits, arrows: Arrows) -> None:
+    """Explain states and arrows, and list the restraints."""
     x, y = WIDTH - EDGE - PANEL, HEIGHT - TOP - 0.05
     if case.gathered is None:
         levels = card_levels(case)
