@@ -285,6 +285,14 @@ def test_rigid_is_from_a_tenth_of_the_default_and_for_zero():
     assert any("stiffness of 0 are rigid" in a.text for a in result.assumed)
 
 
+@pytest.mark.parametrize("pressure", [0.0, 2000.0])
+def test_a_file_with_pressure_says_that_bourdon_effects_are_off(pressure):
+    c = job()
+    c.add(10, 20, dx=1000.0, p1=pressure, p2=0.0, RESTRANT=[slot(10, ANC)])
+    result = imported(c)
+    assert any("BOURDON=OPENING" in a.text for a in result.assumed) == (pressure > 0.0)
+
+
 def test_a_restraint_given_on_two_elements_is_one_support():
     c = job()
     same = slot(20, RESTING, cosines=Y, mu=0.1)

@@ -7,19 +7,22 @@ from published import KINDS, ROWS, Row, Source, half_unit
 TOP = """\
 # Verification record
 
-Every published number that a test compares, beside the one that this program finds. The tests in
-`tests/verification` make this page: each comparison below is an assertion there, a changed number
-fails it, and a row that no longer stands here fails, too. `make verification-record` writes the
-page anew; `trunnion run models/NAME.inp` repeats a deck by hand.
+Every published number that the tests in `tests/verification` compare, beside the one that this
+program finds. These tests make the page: each comparison below is an assertion there, a changed
+number fails it, and a row that no test compares any more fails, too. `make verification-record`
+writes the page anew; `trunnion run models/NAME.inp` repeats a deck by hand.
 
 - *difference*: `=` where our number rounds to the printed digits; else relative to the print.
 - *allowed*: what the test allows. *last digit* is half a unit of the last printed one; any wider
   limit has its reason in the text above its table. *not met* numbers are listed first, with what
   is known of them: the test asserts the number that is found, and nothing is tuned to meet a print.
 
-Not on this page, because they compare laws and not printed numbers: closed forms of single elements
-and supports (`tests/unit`), the exact judges of 20 000 random scenes ([stability](stability.md)),
-and other programs on the same models ([benchmarks](benchmarks.md)).
+Not on this page: the printed tables behind the libraries of materials and pipe sizes
+(`tests/unit/test_materials.py`, `tests/unit/test_sections.py`); closed forms of single elements and
+supports (`tests/unit`), the exact judges of 20 000 random scenes ([stability](stability.md)), other
+programs on the same models ([benchmarks](benchmarks.md), [confirmed](export.md)), and jobs with
+[printed results of CAESAR II](caesar.md#compared-with-printed-results), which are not in this
+repository.
 """
 HEAD = "| number | published | ours | difference | allowed |\n|---|---:|---:|---:|---|"
 
@@ -59,10 +62,15 @@ def _summary(by_kind: dict[str, list[Source]], rows: dict[Source, dict[str, Row]
                 f"| [{source.title}](#{_anchor(source.title)}) | {len(own)} | {exact} | {shown} "
                 f"| {len(own) - len(met) or ''} |"
             )
-    total = sum(len(own) for own in rows.values())
-    left = sum(bool(row.remark) for own in rows.values() for row in own.values())
-    lines.append(f"| all | {total} | | | {left} |")
-    return "\n".join([*lines, ""])
+    every = [row for own in rows.values() for row in own.values()]
+    left = sum(bool(row.remark) for row in every)
+    exact = sum(difference(row) == "=" for row in every)
+    lines.append(f"| all | {len(every)} | {exact} | | {left} |")
+    told = (
+        f"{len(every)} numbers of {len(rows)} problems: {exact} are met to all printed digits, "
+        f"{len(every) - exact - left} within the limit that is stated, {left} are not met.\n"
+    )
+    return "\n".join([told, *lines, ""])
 
 
 def _open(by_kind: dict[str, list[Source]], rows: dict[Source, dict[str, Row]]) -> str:

@@ -10,21 +10,13 @@ import time
 from pathlib import Path
 
 import pytest
+from falls import FALLS
 
 import trunnion
 from trunnion.many.records import FOLDER
 
 MODELS = Path(__file__).parents[2] / "models"
 BAD = "PIPE 10 20 DX=1\nSUPORT 20 +Y\n"
-FALLS = """\
-MATERIAL STEEL E=203e9
-SECTION P OD=0.1 WALL=0.01
-PIPE 10 20 DX=1
-SUPPORT 10 +Y MU=0.1
-SUPPORT 20 +Y MU=0.1 X RX RY RZ
-FORCE 10 F1 FX=1 FY=-1 FZ=1000
-CASE PUSH = F1
-"""
 
 
 def command(*arguments, **options):

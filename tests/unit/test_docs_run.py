@@ -55,3 +55,20 @@ def test_block_of_the_certificate_page_is_vm29():
     page = next(p for p in PAGES if p.stem == "certificate")
     deck = next(b.text for b in blocks(page) if b.name == "block.inp")
     assert read_text(deck, "block.inp") == read(ROOT / "models" / "vm29.inp")
+
+
+@pytest.mark.parametrize(
+    ("printed", "said", "alike"),
+    [
+        ("OPE: holds: worst 5.1e-15, law at 30\n", "OPE: holds: worst 7.0e-16, law at 40\n", True),
+        ("OPE: FAILS: worst 1.0e-06, law at 30\n", "OPE: FAILS: worst 1.1e-06, law at 30\n", False),
+        ("OPE: FAILS: worst 1.0e-06, law at 30\n", "OPE: FAILS: worst 1.0e-06, law at 40\n", False),
+        ("  friction   1.4e-17  20 +Y\n", "  friction   0\n", True),
+        ("  friction   1.4e-17  20 +Y\n", "  friction   2.0e-08  20 +Y\n", False),
+        ("one\n...\nfour\n", "one\ntwo\nthree\nfour\n", True),
+        ("one\n...\nfour\n", "one\ntwo\nthree\n", False),
+        ("FX 6426.9 N\n", "FX 6426.8 N\n", False),
+    ],
+)
+def test_a_page_is_held_to_its_numbers_and_not_to_round_off(printed, said, alike):
+    assert same(printed, said) == alike

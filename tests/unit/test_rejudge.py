@@ -7,6 +7,7 @@ import json
 from pathlib import Path
 
 import pytest
+from falls import FALLS
 
 from trunnion.cli import main
 
@@ -218,6 +219,62 @@ def test_what_the_file_does_not_have_is_not_judged(home, written, capsys):
     said = capsys.readouterr().out.splitlines()
     silent = [line.split(":")[0] for line in said if ": not judged: " in line]
     assert silent == ["EQN", "RSP", "OCC", "CYCLE HEAT", "modes", "envelope"]
+
+
+MORE = """\
+FORCE 10 F2 FY=-100
+CASE REST = F2
+CASE MORE = F2 FROM=PUSH
+CASE ABOVE = F2 ABOUT=PUSH
+COMB BOTH = REST + PUSH
+MODES 2 ABOUT=PUSH
+"""
+
+
+def test_what_stands_on_a_case_without_numbers_is_not_judged(home, capsys):
+    (home / "falls.inp").write_text(FALLS + MORE)
+    assert leave("run", "falls.inp") == 1
+    capsys.readouterr()
+    assert leave("verify", "--certificate", "falls.json") == 0
+    said = capsys.readouterr().out.splitlines()
+    assert [line.split(":")[0] for line in said if ": holds: " in line] == ["REST", "envelope"]
+    # even where the file claims that it has numbers
+    report = json.loads((home / "falls.json").read_text())
+    for name in ("MORE", "ABOVE", "BOTH"):
+        report["cases"][name] = report["cases"]["REST"]
+    (home / "falls.json").write_text(json.dumps(report))
+    assert leave("verify", "--certificate", "falls.json") in (0, 1)
+    said = capsys.readouterr()
+    for name in ("MORE", "ABOVE", "BOTH"):
+        assert f"{name}: not judged: it stands on PUSH, not judged" in said.out
+    assert said.err == ""
+
+
+@pytest.mark.parametrize(
+    ("place", "value"),
+    [
+        (("modes",), 5),
+        (("modes", "mesh_hz"), -1.0),
+        (("modes", "shapes"), []),
+        (("modes", "shapes_low"), "none"),
+        (("modes", "participation"), [[1.0]]),
+        (("cycles",), []),
+        (("cycles", "HEAT", "states"), [1, 2]),
+        (("cases", "EQN", "total"), {}),
+        (("envelope",), {}),
+    ],
+)
+def test_tables_of_another_shape_fail_by_name(home, written, place, value, capsys):
+    report = json.loads(written)
+    inside = report
+    for key in place[:-1]:
+        inside = inside[key]
+    inside[place[-1]] = value
+    (home / "b.json").write_text(json.dumps(report))
+    assert leave("verify", "--certificate", "b.json") == 1
+    said = capsys.readouterr()
+    assert ": FAILS: " in said.out
+    assert said.err == ""
 
 
 def test_other_answers_are_not_judged(home, capsys):

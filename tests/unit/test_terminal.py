@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from falls import FALLS
 from terminal import on_terminal
 
 MODELS = Path(__file__).parents[2] / "models"
@@ -20,15 +21,6 @@ MATERIAL STEEL  E=203GPa NU=0.3 ALPHA=12e-6 DENSITY=7850
 SECTION  P      OD=273.1 WALL=9.27
 OPERATE  T1=170 P1=12 TREF=20
 ANCHOR   0
-"""
-FALLS = """\
-MATERIAL STEEL E=203e9
-SECTION P OD=0.1 WALL=0.01
-PIPE 10 20 DX=1
-SUPPORT 10 +Y MU=0.1
-SUPPORT 20 +Y MU=0.1 X RX RY RZ
-FORCE 10 F1 FX=1 FY=-1 FZ=1000
-CASE PUSH = F1
 """
 # Draws at once, and makes the work wait until a line was drawn twice: no clock is asserted.
 SLOW = """\

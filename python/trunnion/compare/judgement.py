@@ -23,6 +23,9 @@ from trunnion.solver.structure import Structure
 if TYPE_CHECKING:
     from trunnion.cases.analysis import Run
 
+#: what reading tables raises that are those of another deck, or none at all
+SHAPE = (KeyError, IndexError, TypeError, ValueError, AttributeError)
+
 
 @frozen
 class Verdict:
@@ -47,6 +50,11 @@ class Judged:
         found = self.result.certificate
         assert found is not None
         return f"worst {found.worst:.1e}, {found.where}"
+
+
+def has_numbers(run: "Run", name: str) -> bool:
+    """Whether a case was judged, and has numbers."""
+    return name in run.found and run.found[name].state is not None
 
 
 def start_of(

@@ -8,11 +8,11 @@ last digit.  The next correction of the iteration, which only a solver knows, is
 file.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from trunnion.arrays import CaseResult, FrozenBreak, HangerChoice
-from trunnion.compare.judgement import Verdict, judged, start_of
+from trunnion.compare.judgement import SHAPE, Verdict, has_numbers, judged, start_of
 from trunnion.compare.written import changed
 from trunnion.model import Case, Comb, Model
 from trunnion.results.combine import combine, parents
@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from trunnion.cases.analysis import Run
 
 Stored = Mapping[str, Any]
-SHAPE = (KeyError, IndexError, TypeError, ValueError, AttributeError)  # tables of another deck
 
 
 def rejudge(report: Stored, model: Model, watch: Watch | None = None) -> list[Verdict]:
@@ -73,17 +72,13 @@ def _guarded(run: "Run", case: Case | Comb, stored: Stored) -> Verdict:
     if not stored["converged"]:
         run.found[case.name] = _nothing(run, case)
         return Verdict(case.name, None, f"no numbers: {stored.get('cause')}")
-    missing = [name for name in _parents(case) if name not in run.found]
+    missing = [name for name in _parents(case) if not has_numbers(run, name)]
     if missing:
         return Verdict(case.name, None, f"it stands on {' '.join(missing)}, not judged")
-    if isinstance(case, Comb):
-        judge: Callable[[], Verdict] = lambda: _comb(run, case, stored)  # noqa: E731
-    elif case.nonlinear:
-        judge = lambda: _nonlinear(run, case, stored)  # noqa: E731
-    else:
-        judge = lambda: _case(run, case, stored)  # noqa: E731
     try:
-        return judge()
+        if isinstance(case, Comb):
+            return _comb(run, case, stored)
+        return _nonlinear(run, case, stored) if case.nonlinear else _case(run, case, stored)
     except SHAPE as error:
         return Verdict(case.name, False, f"its tables do not fit the deck: {error!r}")
 

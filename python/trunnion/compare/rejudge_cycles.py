@@ -8,7 +8,7 @@ import numpy as np
 
 from trunnion.arrays import CaseResult, CycleResult, Results
 from trunnion.cases.cycles import REPEATED, change_between, set_ranges
-from trunnion.compare.judgement import Verdict, judged, start_of
+from trunnion.compare.judgement import SHAPE, Verdict, judged, start_of
 from trunnion.compare.written import differing
 from trunnion.model import Case, Cycle
 from trunnion.solver.steps import Origin
@@ -18,7 +18,6 @@ if TYPE_CHECKING:
 
 STEP = ("nodes", "nodes_low", "supports", "elements")
 WHOLE = ("cases", "loops", "repeats", "change", "steps", "supports", "elements")
-SHAPE = (KeyError, IndexError, TypeError, ValueError, AttributeError)
 
 
 def judge_cycle(run: "Run", cycle: Cycle, report: Mapping[str, Any]) -> Verdict:
@@ -31,7 +30,8 @@ def judge_cycle(run: "Run", cycle: Cycle, report: Mapping[str, Any]) -> Verdict:
             return Verdict(name, None, f"not followed to its end: {stored['cause']}")
         if "states" not in stored:
             return Verdict(name, None, "the file has no states of its steps: run the deck again")
-        missing = [case for case in (*cycle.cases, cycle.start) if case and case not in run.found]
+        names = [name for name in (*cycle.cases, cycle.start) if name]
+        missing = [name for name in names if name not in run.found]
         if missing:
             return Verdict(name, None, f"it stands on {' '.join(missing)}, not judged")
         return _judge(run, cycle, name, stored)

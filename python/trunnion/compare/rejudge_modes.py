@@ -15,7 +15,7 @@ import numpy as np
 
 from trunnion.arrays import F8, CaseResult, ModeSet, System, sizes
 from trunnion.cases.dynamics import Dynamics
-from trunnion.compare.judgement import Verdict
+from trunnion.compare.judgement import SHAPE, Verdict, has_numbers
 from trunnion.compare.restored import moved
 from trunnion.compare.written import far, written
 from trunnion.errors import ModelError
@@ -33,7 +33,6 @@ APART = 1e-8  # of x M x' from the unit matrix
 FOLLOWS = ("frequency_hz", "period_s", "participation", "effective_mass", "effective_mass_percent",
            "effective_mass_sum_percent", "total_mass", "rigid", "added_nodes")  # fmt: skip
 ANSWER = ("nodes", "supports", "elements", "stresses")
-SHAPE = (KeyError, IndexError, TypeError, ValueError, AttributeError)
 Stored = Mapping[str, Any]
 
 
@@ -47,7 +46,10 @@ class StoredModes:
     @property
     def cut(self) -> float:
         """Cut-off of the mesh [Hz]."""
-        return float(self.entry["mesh_hz"])
+        cut = float(self.entry["mesh_hz"])
+        if not 0.0 < cut < np.inf:
+            raise ValueError(f"mesh_hz is {cut:g}")
+        return cut
 
     def modes(self, mesh: Mesh) -> ModeSet:
         """Read the modes back."""
@@ -92,17 +94,18 @@ def judge_dynamics(
     """Judge the modes, then every response spectrum case on them."""
     run.ledger.watch.begin("modes")
     about = run.model.modal.about if run.model.modal else None
-    if about is not None and about not in run.found:
+    if about is not None and not has_numbers(run, about):
         return _neither(f"they stand on {about}, not judged", spectra)
-    if "shapes" not in report["modes"]:
-        return _neither("the file has none", spectra)
-    if "mesh_hz" not in report["modes"]:
-        return _neither("the file does not have all of their numbers", spectra)
     try:
-        dynamics = Dynamics(run, StoredModes(report["modes"], run.system))
+        stored = report["modes"]
+        if "shapes" not in stored:
+            return _neither("the file has none", spectra)
+        if "mesh_hz" not in stored:
+            return _neither("the file does not have all of their numbers", spectra)
+        dynamics = Dynamics(run, StoredModes(stored, run.system))
         if dynamics.modes is None:
             return _neither(str(dynamics.cause), spectra)
-        verdict = _modes(dynamics, dynamics.modes, report["modes"], run.system)
+        verdict = _modes(dynamics, dynamics.modes, stored, run.system)
     except SHAPE as error:
         said = f"its tables do not fit the deck: {error!r}"
         _, none = _neither("the modes fail", spectra)

@@ -114,6 +114,11 @@ def _assume(job: Job, model: Model, findings: Findings) -> None:
     if model.settings.stiffen != "OFF":
         text = "pressure stiffens bends by the largest pressure (STIFFEN=MAX), as in the program"
         findings.assume(text)
+    if any(p > 0.0 for pipe in model.pipes for p in pipe.operation.p.values()):
+        text = (
+            "Bourdon effects of pressure are off, as by default in the program; a job that has them"
+        )
+        findings.assume(f"{text} takes DEFAULT BOURDON=OPENING in its converted deck")
     if bent and uses_b31j(job):
         findings.assume(
             "elbows of 90 degrees have k = 1.3/h (ASME B31J), as in version 14 by its "

@@ -1,17 +1,15 @@
 """Blocks of a PCF to components with points in metres, under the pipeline that they belong to."""
 
-import re
 from collections.abc import Mapping
 from dataclasses import replace
 from typing import TypeVar
 
 from trunnion.formats.findings import Findings
 from trunnion.formats.pcf.blocks import Attribute, Block
+from trunnion.formats.pcf.points import Point, point_of, points_of
 from trunnion.formats.pcf.words import ENDS, HEADERS, SHAPES, is_message
 from trunnion.frozen import frozen
-from trunnion.system.vectors import Vec
 
-LARGEST = 1e9  # values above mean "no value" in attributes
 _LENGTHS = {
     "MM": 1e-3,
     "INCH": 0.0254,
@@ -23,16 +21,6 @@ _LENGTHS = {
 }
 _BORES = {"MM": "MM", "INCH": "INCH", "IN": "INCH", "INCH-SIXTEENTH": "SIXTEENTH"}
 _WEIGHTS = {"KGS": 1.0, "KG": 1.0, "LBS": 0.45359237, "LB": 0.45359237}
-_GLUED = re.compile(r"([-+]?[0-9]*\.?[0-9]+)([A-Za-z]{1,3})?")
-
-
-@frozen
-class Point:
-    """Coordinates E N Up [m] and the bore as the file writes it; None if it does not."""
-
-    xyz: Vec
-    bore: float | None
-    line: int
 
 
 @frozen
@@ -148,7 +136,7 @@ def read_line(found: list[Block], findings: Findings) -> Line:
         elif word in HEADERS or word.startswith(("UNITS-", "ITEM-")) or in_materials:
             continue
         elif word in ENDS or word.startswith(("END-POSITION-", "END-CONNECTION-")):
-            at = _points(block, ("CO-ORDS", "END-POINT"), units.length, findings)
+            at = points_of(block, ("CO-ORDS", "END-POINT"), units.length, findings)
             reference = block.get("CONNECTION-REFERENCE") or block.value
             ends += [(word, point, reference) for point in at[:1]]
         elif is_message(word):
@@ -176,10 +164,10 @@ def read_line(found: list[Block], findings: Findings) -> Line:
 
 
 def _part(block: Block, unit: float, findings: Findings) -> Part:
-    ends = _points(block, ("END-POINT",), unit, findings)
-    centres = _points(block, ("CENTRE-POINT",), unit, findings)
-    branches = _points(block, _BRANCHES, unit, findings)
-    at = _points(block, ("CO-ORDS",), unit, findings)
+    ends = points_of(block, ("END-POINT",), unit, findings)
+    centres = points_of(block, ("CENTRE-POINT",), unit, findings)
+    branches = points_of(block, _BRANCHES, unit, findings)
+    at = points_of(block, ("CO-ORDS",), unit, findings)
     centre = centres[0] if centres else None
     rest = tuple(a for a in block.attributes if a.name not in _RECORDS)
     return Part(
@@ -204,49 +192,6 @@ def _identified(part: Part, items: Mapping[str, str]) -> Part:
 
 _BRANCHES = ("BRANCH1-POINT", "BRANCH2-POINT")
 _RECORDS = frozenset(("END-POINT", "CENTRE-POINT", "CO-ORDS", *_BRANCHES))
-
-
-def _points(block: Block, names: tuple[str, ...], unit: float, findings: Findings) -> list[Point]:
-    """Read the point records of some names."""
-    found = []
-    for a in block.attributes:
-        if a.name not in names:
-            continue
-        point = point_of(a, unit)
-        if isinstance(point, str):
-            findings.fault(a.line, f"{block.keyword} of line {block.line}: {a.name}: {point}")
-        else:
-            found.append(point)
-    return found
-
-
-def point_of(a: Attribute, unit: float) -> Point | str:
-    """Read one point record; a text says what is wrong with it."""
-    words = a.value.split()
-    numbers = [plain(word) for word in words[:3]]
-    if len(numbers) < 3:
-        return f"{len(numbers)} coordinates; three are needed"
-    if any(x is None or abs(x) > LARGEST for x in numbers):
-        wrong = next(
-            w for w, x in zip(words, numbers, strict=False) if x is None or abs(x) > LARGEST
-        )
-        return f"{wrong} is no coordinate"
-    bore = None
-    if len(words) > 3:
-        glued = _GLUED.fullmatch(words[3])
-        bore = float(glued[1]) if glued else None
-    east, north, up = (x * unit for x in numbers if x is not None)
-    usable = bore is not None and 0.0 < bore <= LARGEST
-    return Point((east, north, up), bore if usable else None, a.line)
-
-
-def plain(word: str) -> float | None:
-    """Value of a decimal number, None if it is none."""
-    try:
-        value = float(word) if "_" not in word else None
-    except ValueError:
-        return None
-    return value if value is not None and value - value == 0.0 else None
 
 
 def _circle(block: Block, unit: float) -> list[tuple[str, Point]]:

@@ -11,7 +11,8 @@ from typing import Any
 from trunnion.deck.values import WordError
 from trunnion.formats.findings import Findings
 from trunnion.formats.pcf.bores import Bores, outside
-from trunnion.formats.pcf.parts import LARGEST, Line, Part, plain
+from trunnion.formats.pcf.parts import Line, Part
+from trunnion.formats.pcf.points import LARGEST, plain
 from trunnion.formats.sidetable import G, SideTable, value_of
 from trunnion.frozen import frozen
 from trunnion.library.materials import library_material

@@ -7,7 +7,8 @@ centre.  Of a tee the run is what is in line, not what is called END-POINT.
 from math import acos, degrees, tan
 
 from trunnion.formats.findings import Findings
-from trunnion.formats.pcf.parts import Part, Point
+from trunnion.formats.pcf.parts import Part
+from trunnion.formats.pcf.points import Point
 from trunnion.frozen import frozen
 from trunnion.system.vectors import Vec, add, dot, scale, size, sub, unit
 

@@ -7,7 +7,8 @@ from trunnion.formats.findings import Findings
 from trunnion.formats.pcf.assemble import Line
 from trunnion.formats.pcf.network import Places
 from trunnion.formats.pcf.openends import where
-from trunnion.formats.pcf.parts import Part, Point, plain
+from trunnion.formats.pcf.parts import Part
+from trunnion.formats.pcf.points import Point, plain
 from trunnion.formats.pcf.supportwords import Meaning, add_words, meaning_of, merged
 from trunnion.formats.sidetable import SideTable
 from trunnion.model import Support
