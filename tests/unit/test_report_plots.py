@@ -22,7 +22,7 @@ from trunnion.report.plots import figures, page
 from trunnion.report.plots.convergence import phase_of, story
 from trunnion.report.plots.cycles import traces
 from trunnion.report.plots.glyphs import glyphs
-from trunnion.report.plots.labels import Space, place
+from trunnion.report.plots.labels import Label, Space, place
 from trunnion.report.plots.names import safe
 from trunnion.report.plots.paint import Paint
 from trunnion.report.plots.palette import STATES, TYPES
@@ -496,6 +496,7 @@ def test_labels_of_a_large_model_are_thinned_and_its_supports_are_dots():
     labels = set(results.system.labels)
     shown = [t for t in texts(drawn["isometric"]) if t.get_text() in labels]
     assert 10 < len(shown) <= 48
+    assert f"{len(shown)} of 1200 nodes have room for a label" in said(drawn["isometric"])
     numbers = sorted(int(t.get_text()) for t in shown)
     assert max(np.diff(numbers)) < 300  # evenly along the line
     polygons = sum(len(c.get_paths()) for c in drawn["isometric"].axes[0].collections)
@@ -536,6 +537,20 @@ def test_what_is_left_out_of_a_file_stands_in_every_picture_and_north_where_it_i
 
 def test_north_is_not_invented(line):
     assert "north" not in said(line[2]["isometric"])
+
+
+def test_lines_to_labels_cross_no_text_and_no_other_support():
+    space = Space(np.array([200.0, 100.0]))
+    start, end = np.array([20.0, 50.0]), np.array([120.0, 50.0])
+    assert not space.crosses(start, end)
+    space.body(22.0, 50.0, 10.0, 10.0)  # that of the node itself
+    assert not space.crosses(start, end)
+    space.body(70.0, 50.0, 10.0, 10.0)
+    assert space.crosses(start, end)
+    assert not space.crosses(start, np.array([20.0, 90.0]))
+    space = Space(np.array([200.0, 100.0]))
+    space.write(Label(0, 70.0, 50.0, 10.0, 8.0, False), start)
+    assert space.crosses(start, end)
 
 
 def test_names_of_files_are_safe_and_stay_apart():

@@ -41,7 +41,7 @@ def isometric(found: Subject, units: ReportUnits, title: str) -> Figure:
     linked = _links(found, frame)
     triad(frame, system.up, found.north)
     length_bar(frame, units.length)
-    label_model(frame, occupied(frame, found, None, bodies), system, system.xyz)
+    labelled = label_model(frame, occupied(frame, found, None, bodies), system, system.xyz)
     x, y = WIDTH - EDGE - PANEL, HEIGHT - TOP - 0.05
     if bodies:
         y = legend.heading(figure, x, y, "RESTRAINTS")
@@ -51,18 +51,21 @@ def isometric(found: Subject, units: ReportUnits, title: str) -> Figure:
         y -= 0.15
     else:
         y = legend.lines(figure, x, y, PANEL, ["no restraints"]) - 0.1
-    _facts(figure, x, y, found, units)
+    y = _facts(figure, x, y, found, units)
+    if labelled < len(system.labels):
+        text = f"{labelled} of {len(system.labels)} nodes have room for a label"
+        legend.lines(figure, x, y - 0.1, PANEL, [text])
     return figure
 
 
-def _facts(figure: Figure, x: float, y: float, found: Subject, units: ReportUnits) -> None:
-    """List sections and sizes."""
+def _facts(figure: Figure, x: float, y: float, found: Subject, units: ReportUnits) -> float:
+    """List sections and sizes; gives where the list ends [in]."""
     y = legend.heading(figure, x, y, "PIPES (outside diameter x wall)")
     y = legend.lines(figure, x, y, PANEL, _sections(found, units)) - 0.1
     if any(part.type not in ("pipe", "bend", "reducer") for part in found.system.parts):
         y = legend.lines(figure, x, y, PANEL, ["darker: stiff body, joint, spring"]) - 0.1
     y = legend.heading(figure, x, y, "SIZE")
-    legend.lines(figure, x, y, PANEL, _sizes(found, units))
+    return legend.lines(figure, x, y, PANEL, _sizes(found, units))
 
 
 def _links(found: Subject, frame: Frame) -> int:

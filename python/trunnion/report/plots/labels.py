@@ -13,6 +13,7 @@ CELL = 1.5  # of the map of what is taken [pt]
 AROUND = (45.0, 135.0, 315.0, 225.0, 90.0, 270.0, 0.0, 180.0)  # directions tried [degrees]
 AWAY = (5.0, 9.0, 14.0, 21.0, 30.0, 42.0)  # distances tried [pt]
 LEADER = 12.0  # from this distance on a line leads to the label [pt]
+OWN = 14.0  # around a node: the support there is its own [pt]
 FAILURES = 250  # labels without a place after which no more are tried
 
 
@@ -29,16 +30,22 @@ class Label:
 
 
 class Space:
-    """A map of the paper that knows what is taken, and apart from it where text stands."""
+    """A map of the paper that knows what is taken, and where text and supports stand."""
 
     def __init__(self, size: F8) -> None:
         self.count = np.ceil(size / CELL).astype(int)
         self.taken: NDArray[np.bool_] = np.zeros(self.count, bool)
         self.written: NDArray[np.bool_] = np.zeros(self.count, bool)
+        self.bodies: NDArray[np.bool_] = np.zeros(self.count, bool)
 
     def box(self, x: float, y: float, width: float, height: float) -> None:
         """Take a box about its centre [pt]."""
         self.taken[self._inside(x, y, width, height)] = True
+
+    def body(self, x: float, y: float, width: float, height: float) -> None:
+        """Take the box of a support, which lines to labels of other nodes do not cross."""
+        self.box(x, y, width, height)
+        self.bodies[self._inside(x, y, width, height)] = True
 
     def write(self, label: Label, point: F8) -> None:
         """Take the place of a label and of the line to its point."""
@@ -72,11 +79,13 @@ class Space:
         return not self.taken[a:b, c:d].any()
 
     def crosses(self, start: F8, end: F8) -> bool:
-        """Tell whether a line would cross text."""
+        """Tell whether a line would cross text, or a support other than that at its start."""
         n = int(np.abs(end - start).max() / CELL) + 2
         at = ((start + np.linspace(0.0, 1.0, n)[:, None] * (end - start)) / CELL).astype(int)
         at = np.clip(at, 0, self.count - 1)
-        return bool(self.written[at[:, 0], at[:, 1]].any())
+        far = np.abs((at - start / CELL) * CELL).max(axis=1) > OWN
+        body = self.bodies[at[:, 0], at[:, 1]] & far
+        return bool((self.written[at[:, 0], at[:, 1]] | body).any())
 
     def _inside(self, x: float, y: float, width: float, height: float) -> tuple[slice, slice]:
         (a, c), (b, d) = self._cells(x, y, width, height)

@@ -135,7 +135,7 @@ def _box(space: Space, frame: Frame, xyz: F8) -> None:
     points = frame.points(frame.flat(xyz))
     low, high = points.min(axis=0), points.max(axis=0)
     middle, size = 0.5 * (low + high), high - low
-    space.box(*middle.tolist(), *size.tolist())
+    space.body(*middle.tolist(), *size.tolist())
 
 
 def label_order(system: System, supports: Sequence[int]) -> list[int]:
@@ -154,14 +154,15 @@ def _spread(n: int) -> list[int]:
     return [int(f"{i:0{bits}b}"[::-1], 2) for i in range(n)]
 
 
-def label_model(frame: Frame, space: Space, system: System, xyz: F8) -> None:
-    """Label the nodes of a model at places (n_node, 3); those of supports stand out."""
+def label_model(frame: Frame, space: Space, system: System, xyz: F8) -> int:
+    """Label the nodes of a model at places (n_node, 3), those of supports in bold; count them."""
     held = set(card_nodes(system))
     order = label_order(system, sorted(held))
-    label_nodes(
+    found = label_nodes(
         frame, space, [system.labels[i] for i in order], xyz[order],
         bold=[i in held for i in order],
     )  # fmt: skip
+    return len(found)
 
 
 def label_nodes(
