@@ -16,7 +16,6 @@ from trunnion.loads.wind import snow_load, wind_loads, wind_problems, wind_remar
 from trunnion.model import Case, Model, Term
 from trunnion.system.checks import refuse
 
-
 SHARED = ("dist", "strain", "curvature", "nodal", "base", "preload", "pressure", "vary")
 
 
