@@ -3,6 +3,10 @@
 The reports print this on top: a reader must see at once what the numbers do not contain.
 """
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from trunnion.errors import DeckError, ModelError
 from trunnion.frozen import frozen
 
 
@@ -41,6 +45,28 @@ class Origin:
     format: str  # "CAESAR II neutral file, version 11.0"
     left_out: tuple[LeftOut, ...] = ()
     assumed: tuple[Assumption, ...] = ()
+
+
+def origin_lines(origin: Origin) -> list[str]:
+    """Lines for the screen: source, then everything left out, then everything assumed."""
+    lines = [f"from {origin.file}" + (f", {origin.format}" if origin.format else "")]
+    lines += [f"LEFT OUT: {entry}" for entry in origin.left_out]
+    lines += [f"assumed: {entry}" for entry in origin.assumed]
+    return lines
+
+
+@contextmanager
+def telling(origin: Origin | None) -> Iterator[None]:
+    """Add what is missing in a model to the errors that it makes, as a note of the exception.
+
+    A line that is cut at a gap moves freely: the mechanism alone would not say why.
+    """
+    try:
+        yield
+    except (DeckError, ModelError) as error:
+        if origin is not None:
+            error.add_note("\n".join(origin_lines(origin)))
+        raise
 
 
 @frozen

@@ -24,8 +24,8 @@ def convert(source: Path, deck: Path, permissive: bool, options: "Options | None
     """
     from trunnion.formats import is_foreign, read_any
     from trunnion.formats.options import NONE
+    from trunnion.origin import origin_lines
     from trunnion.report.atomic import write_files
-    from trunnion.report.origin import origin_lines
     from trunnion.report.progress import shown
 
     if deck.exists() and source.exists() and deck.samefile(source):

@@ -13,11 +13,11 @@ import click
 from trunnion.arrays import OPEN, CaseResult, Results
 from trunnion.frozen import frozen
 from trunnion.model import Model
+from trunnion.origin import origin_lines
 from trunnion.report.columns import PAGE
 from trunnion.report.frozen import frozen_warning
 from trunnion.report.loops import cycle_lines, cycle_warnings
 from trunnion.report.modes import mode_lines, mode_warnings
-from trunnion.report.origin import origin_lines
 from trunnion.report.screen_table import case_table
 from trunnion.report.summary import Largest, largest_of
 from trunnion.report.units import ReportUnits, report_units
