@@ -24,6 +24,7 @@ from trunnion.frozen import frozen
 STATES = ("open", "engaged", "stick", "slip", "free", "locked")
 FREE, LOCKED = 4, 5  # of snubbers
 STEEP = 0.7  # cosine to the vertical of what is a rest, not a stop
+ALIKE = 1e-9  # loads that differ by less are the same: the first case is named
 
 
 def card_ids(cards: Sequence[Card]) -> tuple[str, ...]:
@@ -203,16 +204,16 @@ def envelope(cases: Sequence[CaseResult]) -> Envelope:
     return extremes(force, np.stack(sizes))
 
 
-def extremes(force: F8, both: B1, alike: float = 0.0) -> Envelope:
+def extremes(force: F8, both: B1) -> Envelope:
     """Extremes over the first index of (n, n_card, 6); `both` tells what acts both ways.
 
-    Where several come within `alike` of the size of the extreme, the first of them is named.
+    Where several come within `ALIKE` of the size of the extreme, the first of them is named.
     """
     size = np.abs(force).max(axis=0)
     halves = [size[:, :3].max(initial=0.0), size[:, 3:].max(initial=0.0)]
     nothing = size <= 1e-9 * np.repeat(halves, 3)
     upper, lower = np.where(both, np.abs(force), force), np.where(both, -np.abs(force), force)
-    near = alike * size
+    near = ALIKE * size
     high = (upper >= upper.max(axis=0) - near).argmax(axis=0)
     low = (lower <= lower.min(axis=0) + near).argmax(axis=0)
     return Envelope(
