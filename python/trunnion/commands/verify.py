@@ -84,13 +84,11 @@ def _repeat(
 ) -> tuple[int, str]:
     """Solve the deck again and list what differs."""
     import json
-    from importlib.metadata import version
 
     from trunnion.compare.results import diff_results
     from trunnion.report.json import json_report
 
-    made, own = report["manifest"]["version"], version("trunnion")
-    lines = [] if made == own else [f"made by version {made}, run again by {own}"]
+    lines = _versions(report, "run again")
     again = json.loads(json_report(solve_model(model, watch=watch), model))
     changes = diff_results(report, again, allow)
     lines += map(str, changes[:most])
@@ -102,12 +100,21 @@ def _repeat(
     return FAILED if changes else SOLVED, "\n".join(lines)
 
 
+def _versions(report: dict[str, Any], word: str) -> list[str]:
+    """Say where the file names another version than this one."""
+    from importlib.metadata import version
+
+    made, own = report["manifest"]["version"], version("trunnion")
+    return [] if made == own else [f"made by version {made}, {word} by {own}"]
+
+
 def _judge(report: dict[str, Any], model: "Model", watch: "Watch | None") -> tuple[int, str]:
     """Judge the stored numbers alone."""
     from trunnion.compare.rejudge import rejudge
 
     verdicts = rejudge(report, model, watch)
-    said = "\n".join(f"{v.case}: {WORDS[v.passed]}: {v.text}" for v in verdicts)
+    lines = [f"{v.case}: {WORDS[v.passed]}: {v.text}" for v in verdicts]
+    said = "\n".join([*_versions(report, "judged"), *lines])
     failed = any(verdict.passed is False for verdict in verdicts)
     if not failed and not any(verdict.passed for verdict in verdicts):
         raise InputError("no case could be judged")
