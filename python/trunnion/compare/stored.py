@@ -30,6 +30,8 @@ def read_report(path: Path) -> Report:
             parse_constant=lambda word: refuse(path, word),
             parse_int=lambda digits: _whole(path, digits),
         )
+    except ModelError:
+        raise
     except OSError as error:
         refuse(path, error.strerror or "cannot be read")
     except (ValueError, RecursionError) as error:
