@@ -70,8 +70,22 @@ def telling(origin: Origin | None) -> Iterator[None]:
 
 
 @frozen
+class Beside:
+    """What the user said beside a foreign file (`formats.options`).
+
+    The side table by its name without folder and its SHA-256, tolerance [m], anchors as given.
+    """
+
+    table: str | None
+    table_sha256: str | None
+    tolerance: float | None
+    anchors: tuple[str, ...]
+
+
+@frozen
 class InputFile:
     """The file a model was read from: name without folder, SHA-256 of it with its includes."""
 
     name: str
     sha256: str
+    beside: Beside | None = None

@@ -162,3 +162,32 @@ def test_a_number_that_is_not_the_sum_fails(name, monkeypatch):
     assert [c.passed for c in seen[0]] == [True, False, True, True, True, True]
     assert [is_sum(case) for case in found.cases.values()] == [True, False, True, True, True, True]
     assert found["C1"].converged
+
+
+def test_a_load_that_is_not_the_sum_fails(monkeypatch):
+    """A load set that did not follow its factor would be certified by linearity alone."""
+    passed = []
+
+    def tampered(system, loads, *rest):
+        loads = [replace(loads[0], dist=loads[0].dist * (1.0 + 1e-6)), *loads[1:]]
+        found = certify_sums(system, loads, *rest)
+        passed.extend(c.passed for c in found)
+        return found
+
+    monkeypatch.setattr(module, "certify_sums", tampered)
+    cases = "".join(f"CASE C{i} = {i + 1}*W + T1\n" for i in range(6))
+    trunnion.solve(read_text(HEAD + cases, "deck.inp"))
+    assert passed == [False, True, True, True, True, True]
+
+
+def test_many_cases_of_a_model_without_elements_are_solved_one_by_one():
+    deck = "DEFAULT MU=0\nNODE 10 X=0 Y=0 Z=0\nANCHOR 10\nFORCE 10 F1 FX=10\n"
+    deck += "".join(f"CASE C{i} = {i + 1}*F1\n" for i in range(4))
+    found = trunnion.solve(read_text(deck, "deck.inp"))
+    assert all(case.converged for case in found.cases.values())
+
+
+def test_what_cases_share_cannot_be_written_to():
+    found = trunnion.solve(read_text(HEAD + "CASE A = T1\nCASE B = W\n", "deck.inp"))
+    with pytest.raises(ValueError, match="read-only"):
+        found["A"].loads.nodal[0] += 1.0

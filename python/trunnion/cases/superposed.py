@@ -30,7 +30,8 @@ def as_sums(run: "Run", structure: "Structure", cases: Sequence[Case]) -> dict[s
     for case in cases:
         for term in case.terms:
             sets.setdefault(_key(term), len(sets))
-    if run.starts or not cases or len(cases) < WORTH * len(sets):
+    few = not cases or len(cases) < WORTH * len(sets)
+    if few or run.starts or not len(structure.system.kind):
         return {}
     units = [Case(name, (Term(1.0, name, vector),)) for name, vector in sets]
     bases = solve_bases(

@@ -2,9 +2,9 @@
 
 All laws are linear there, so the errors of a sum are at most the weighted sum of the errors of its
 parts, and the rounding of the sum.  What they are measured against is read off the sum's own
-numbers at the few places where its parts are largest, which is never too much.  That the numbers
-are the sum is an item of its own (`sum`), by scattered checksums (Freivalds 1977).  So every item
-is an upper bound of what `certify` finds from the same numbers.
+numbers at the few places where its parts are largest, which is never too much.  That numbers and
+loads are the sum is an item of its own (`sum`), by scattered checksums (Freivalds 1977).  So every
+item is an upper bound of what `certify` finds from the same numbers, but for its round-off.
 """
 
 from collections.abc import Iterable, Sequence
@@ -33,8 +33,6 @@ _LAWS = {  # what an item of the certificate is measured against
     "correction_u": ("travel",),
     "correction_r": ("push", "torque"),
 }
-
-
 _CORRECTED = ("travel", "push", "torque")
 Corrected = tuple[float, float, float]  # displacement, force and moment of supports
 
@@ -46,7 +44,7 @@ class Part:
     size : by name what its errors are measured against [N, N m, m, rad].
     most : the same of its largest numbers, of which rounding is a part.
     elements, nodes, contacts : where it is largest.
-    checks : (3,) checksums of its arrays; sums : (3,) of the sizes in them.
+    checks : checksums of its arrays; sums : of the sizes in them.
     """
 
     certificate: Certificate
@@ -83,7 +81,8 @@ def part(
     most = {"force": force, "moment": moment}
     most |= {"length": largest(moved[:3]), "angle": largest(moved[3:])}
     across, turned = np.maximum(found.across, found.own.max(axis=1))
-    most |= {"stretch": float(across), "swing": float(turned)}
+    carried = most["angle"] * largest(system.length)  # of which a deformation is the rest
+    most |= {"stretch": float(across) + carried, "swing": float(turned)}
     size = {"force": scale.force, "moment": scale.moment}
     size |= {"length": scale.length, "angle": scale.angle}
     size |= dict(zip(_CORRECTED, solver, strict=True))
@@ -97,8 +96,8 @@ def part(
         frozenset(int(np.argmax(row)) for row in (*found.own, -stiff)),
         frozenset(int(np.abs(moved[half]).argmax()) % len(state.u) for half in _HALVES),
         frozenset(int(np.argmax(push * way)) for way in (turning, ~turning) if push.size),
-        _checksums([state])[0],
-        np.array([np.abs(a).sum() for a in (state.u, state.end_force, state.reaction)]),
+        _checksums([loads], [state])[0],
+        np.array([np.abs(a).sum() for a in _arrays(loads, state)]),
     )
 
 
@@ -121,7 +120,7 @@ def certify_sums(
     with np.errstate(all="ignore"):  # numbers that are none show in the items
         sizes = _sizes(system, loads, states, parts)
         sizes |= dict(zip(_CORRECTED, np.array(solver).T, strict=True))
-        checked = _checked(states, factors, parts)
+        checked = _checked(loads, states, factors, parts)
         weights = np.abs(factors)
         bounds = [_bounds(i, parts, weights, sizes) for i in range(len(parts[0].certificate.items))]
     return [
@@ -217,19 +216,29 @@ def _rows(
     return {name: a[elements] if len(a) else a for name, a in every.items()}
 
 
-def _checked(states: Sequence[State], factors: F8, parts: Sequence[Part]) -> F8:
+def _checked(
+    loads: Sequence[Loads], states: Sequence[State], factors: F8, parts: Sequence[Part]
+) -> F8:
     """Whether the numbers are the sums that they should be: 0, or `WRONG`."""
     due = factors @ np.stack([p.checks for p in parts])
     sizes = np.abs(factors) @ np.stack([p.sums for p in parts])
-    off = np.abs(_checksums(states) - due) <= MATCH * sizes
+    off = np.abs(_checksums(loads, states) - due) <= MATCH * sizes
     return np.where(off.all(axis=1), 0.0, WRONG)
 
 
-def _checksums(states: Sequence[State]) -> F8:
-    """(n_state, 3) sums of displacements, end forces and reactions with scattered weights."""
-    first = states[0]
-    most = max(first.u.size, first.end_force.size, first.reaction.size)
+def _checksums(loads: Sequence[Loads], states: Sequence[State]) -> F8:
+    """(n_state, 8) sums of all numbers with scattered weights."""
+    most = max(a.size for a in _arrays(loads[0], states[0]))
     weights = np.mod(np.arange(1, most + 1) * (0.5 * (5.0**0.5 - 1.0)), 1.0) - 0.5
     return np.array(
-        [[a.ravel() @ weights[: a.size] for a in (s.u, s.end_force, s.reaction)] for s in states]
+        [
+            [a.ravel() @ weights[: a.size] for a in _arrays(own, state)]
+            for own, state in zip(loads, states, strict=True)
+        ]
     )
+
+
+def _arrays(loads: Loads, state: State) -> tuple[F8, ...]:
+    """Displacements, forces and what causes them."""
+    causes = loads.dist, loads.strain, loads.curvature, loads.nodal, loads.base
+    return state.u, state.end_force, state.reaction, *causes

@@ -16,6 +16,8 @@ from trunnion.loads.wind import snow_load, wind_loads, wind_problems, wind_remar
 from trunnion.model import Case, Model, Term
 from trunnion.system.checks import refuse
 
+SHARED = ("dist", "strain", "curvature", "nodal", "base", "preload", "pressure", "vary")
+
 
 @frozen(eq=False)
 class LoadSets:
@@ -71,8 +73,11 @@ def load_sets(model: Model, system: System) -> LoadSets:
         spread["S"] = snow_load(model, system)
     weight = line_weights(model, system)
     spread |= uniform_loads(model, system, weight["W"])
+    still = no_loads(system)
+    for name in SHARED:
+        getattr(still, name).setflags(write=False)  # cases that have none of it share it
     sets = LoadSets(
-        still=no_loads(system),
+        still=still,
         up=system.up,
         weight=weight,
         skew=skews(model, system),

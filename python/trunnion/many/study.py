@@ -20,7 +20,6 @@ from trunnion.model import Model
 from trunnion.results.supports import STATES, Envelope, extremes
 
 BLOCK = 25  # variants at a time; never a matter of the number of processes
-ALIKE = 1e-9  # loads that differ by less are the same: the first variant is named
 
 
 @dataclass(slots=True, eq=False, repr=False)
@@ -80,7 +79,7 @@ class Study:
             return None
         force = self.answers.force[good, j]
         both = np.broadcast_to(self.answers.both[j] > 0.0, force.shape)
-        return extremes(force, both, ALIKE), good
+        return extremes(force, both), good
 
 
 def study(

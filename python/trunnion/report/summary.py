@@ -6,6 +6,7 @@ from trunnion.arrays import CaseResult, Results
 from trunnion.frozen import frozen
 from trunnion.report.columns import Column, table, words
 from trunnion.report.units import ReportUnits
+from trunnion.results.interior import mid_points
 from trunnion.results.supports import card_forces, is_good, solved
 
 
@@ -41,14 +42,23 @@ class Largest:
 
 def largest_of(case: CaseResult) -> Largest:
     """Find the largest movement and restraint load of a certified case."""
-    size = np.linalg.norm(solved(case).u[:, :3], axis=1)
-    node = int(size.argmax())
-    move, label = float(size[node]), case.system.labels[node]
+    move, label = _farthest(case)
     if not case.system.cards:
         return Largest(move, label)
     load = np.linalg.norm(card_forces(case)[:, :3], axis=1)
     card = int(load.argmax())
     return Largest(move, label, float(load[card]), case.system.cards[card].name)
+
+
+def _farthest(case: CaseResult) -> tuple[float, str]:
+    """Largest movement of nodes and of bends' middles [m], and where."""
+    u, labels = solved(case).u[:, :3], case.system.labels
+    middle = mid_points(case)
+    if middle is not None:
+        u, labels = np.vstack((u, middle.displacement[:, :3])), (*labels, *case.system.mid)
+    size = np.linalg.norm(u, axis=1)
+    most = int(size.argmax())
+    return float(size[most]), labels[most]
 
 
 def _extremes(case: CaseResult, units: ReportUnits) -> tuple[str, str, str, str]:

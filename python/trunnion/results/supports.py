@@ -23,6 +23,8 @@ from trunnion.frozen import frozen
 
 STATES = ("open", "engaged", "stick", "slip", "free", "locked")
 FREE, LOCKED = 4, 5  # of snubbers
+STEEP = 0.7  # cosine to the vertical of what is a rest, not a stop
+ALIKE = 1e-9  # loads that differ by less are the same: the first case is named
 
 
 def card_ids(cards: Sequence[Card]) -> tuple[str, ...]:
@@ -113,6 +115,21 @@ def card_states(case: CaseResult) -> list[str | None]:
     return [STATES[i] for i in card_levels(case)]
 
 
+def lifted_rests(case: CaseResult) -> list[int]:
+    """Contacts that are rests which the pipe has lifted off: upward, one-way and open.
+
+    Their card may still guide and slide, so that its own state says nothing of it.
+    """
+    s, state = case.system, solved(case)
+    rise = s.contacts.normal[:, 0] @ s.up
+    below, above = s.contacts.gap.T
+    under, over = np.where(rise > 0.0, below, above), np.where(rise > 0.0, above, below)
+    rests = (np.abs(rise) > STEEP) & ~s.contacts.rotational & (s.contacts.dim == 1)
+    rests &= np.isfinite(under) & np.isinf(over)
+    found: list[int] = np.flatnonzero(rests & (state.side == OPEN)).tolist()
+    return found
+
+
 def contact_levels(system: System, state: State) -> I4:
     """(n_contact,) index into STATES."""
     contacts, sliders = system.contacts, system.sliders
@@ -187,16 +204,16 @@ def envelope(cases: Sequence[CaseResult]) -> Envelope:
     return extremes(force, np.stack(sizes))
 
 
-def extremes(force: F8, both: B1, alike: float = 0.0) -> Envelope:
+def extremes(force: F8, both: B1) -> Envelope:
     """Extremes over the first index of (n, n_card, 6); `both` tells what acts both ways.
 
-    Where several come within `alike` of the size of the extreme, the first of them is named.
+    Where several come within `ALIKE` of the size of the extreme, the first of them is named.
     """
     size = np.abs(force).max(axis=0)
     halves = [size[:, :3].max(initial=0.0), size[:, 3:].max(initial=0.0)]
     nothing = size <= 1e-9 * np.repeat(halves, 3)
     upper, lower = np.where(both, np.abs(force), force), np.where(both, -np.abs(force), force)
-    near = alike * size
+    near = ALIKE * size
     high = (upper >= upper.max(axis=0) - near).argmax(axis=0)
     low = (lower <= lower.min(axis=0) + near).argmax(axis=0)
     return Envelope(

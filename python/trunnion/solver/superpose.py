@@ -98,7 +98,7 @@ def _result(
         found["correction_r"],
         partial(expand, structure.members, structure.system, terms.rigid_u),
         terms.rigid_r[: len(state.reaction)],
-        terms.penalty_effect(structure, sizes),
+        terms.penalty_effect(structure, sizes, state.u),
         (reached, where),
         blind=False,
         singular=False,

@@ -43,9 +43,14 @@ class Terms:
         """What changes are measured against."""
         return Sizes(travel(structure, self.u), *support_sizes(structure, self.reaction))
 
-    def penalty_effect(self, structure: Structure, sizes: "Sizes") -> dict[str, float]:
-        """Relative change of displacements and reactions on rigid supports."""
-        moved = travel(structure, self.rigid_u) / max(sizes.travel, NOTHING)
+    def penalty_effect(self, structure: Structure, sizes: "Sizes", u: F8) -> dict[str, float]:
+        """Relative change of displacements and reactions on rigid supports.
+
+        Parameters
+        ----------
+        u : of all nodes of the model: those of the equations may be supports alone.
+        """
+        moved = travel(structure, self.rigid_u) / max(travel(structure, u), NOTHING)
         pushed, turned = _halves(structure, self.rigid_r)
         return {"u": moved, "R": max(pushed / sizes.force, turned / sizes.moment)}
 
@@ -87,7 +92,7 @@ def report_numbers(
         before, best = None, (np.inf, np.inf)
         shift = 0.0
         for i in range(REFINEMENTS):
-            shift = max(shift, _factor(structure, response))
+            shift = _factor(structure, response)
             p = coupled_step(structure, response, law, r)
             trial = point.copy()
             trial.move(p)
@@ -98,6 +103,7 @@ def report_numbers(
             if not better and before is not None:
                 last, every, end, response, then, p, left = before
                 point.become(last)
+                shift = _factor(structure, response)  # what follows is asked of this point
             fine = max(left) <= SHARP and unbalance(structure, r, response) <= BALANCED
             if not better or fine or i == REFINEMENTS - 1:
                 break
@@ -118,7 +124,7 @@ def report_numbers(
         *left,
         partial(expand, structure.members, structure.system, rigid[0]),
         rigid[1][: len(structure.system.contacts.node)],
-        terms.penalty_effect(structure, sizes),
+        terms.penalty_effect(structure, sizes, state.u),
         (reached, where),
         blind,
         shift > 0.0,
