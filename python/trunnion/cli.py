@@ -68,7 +68,7 @@ def _guarded(arguments: Sequence[str] | None) -> int:
         error.show()
         return BAD_INPUT
     except (BatchError, DeckError, ModelError, InputError) as error:
-        click.echo(str(error), err=True)
+        click.echo("\n".join([*getattr(error, "__notes__", ()), str(error)]), err=True)
         return BAD_INPUT
     except (click.Abort, KeyboardInterrupt):
         before = signal.signal(signal.SIGINT, signal.SIG_IGN)  # one line, however impatient

@@ -3,6 +3,10 @@
 The reports print this on top: a reader must see at once what the numbers do not contain.
 """
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from trunnion.errors import DeckError, ModelError
 from trunnion.frozen import frozen
 
 
@@ -43,9 +47,45 @@ class Origin:
     assumed: tuple[Assumption, ...] = ()
 
 
+def origin_lines(origin: Origin) -> list[str]:
+    """Lines for the screen: source, then everything left out, then everything assumed."""
+    lines = [f"from {origin.file}" + (f", {origin.format}" if origin.format else "")]
+    lines += [f"LEFT OUT: {entry}" for entry in origin.left_out]
+    lines += [f"assumed: {entry}" for entry in origin.assumed]
+    return lines
+
+
+@contextmanager
+def telling(origin: Origin | None) -> Iterator[None]:
+    """Add what is missing in a model to the errors that it makes, as a note of the exception.
+
+    A line that is cut at a gap moves freely: the mechanism alone would not say why.
+    """
+    try:
+        yield
+    except (DeckError, ModelError) as error:
+        if origin is not None:
+            error.add_note("\n".join(origin_lines(origin)))
+        raise
+
+
+@frozen
+class Beside:
+    """What the user said beside a foreign file (`formats.options`).
+
+    The side table by its name without folder and its SHA-256, tolerance [m], anchors as given.
+    """
+
+    table: str | None
+    table_sha256: str | None
+    tolerance: float | None
+    anchors: tuple[str, ...]
+
+
 @frozen
 class InputFile:
     """The file a model was read from: name without folder, SHA-256 of it with its includes."""
 
     name: str
     sha256: str
+    beside: Beside | None = None

@@ -4,6 +4,9 @@ The expected numbers follow from the coordinates of `pcf_lines.everything` by ha
 those of ASME B36.10M for NPS 4, 3 and 1 in schedule 40.
 """
 
+import subprocess
+import sys
+
 import pytest
 from pcf_lines import HEADER, TABLE, block, everything, pipe, support
 
@@ -263,6 +266,187 @@ def test_open_ends_make_a_mechanism_until_they_are_anchored(load):
     held = load(STRAIGHT, anchors=("open-ends",)).model
     assert [s.node for s in held.supports] == ["10", "30"]
     assert trunnion.solve(held)["SUS"].certificate.passed
+
+
+def anchors(imported):
+    return [s.node for s in imported.model.supports if s.kind == "anchor"]
+
+
+def assumed(imported):
+    return "\n".join(str(a) for a in imported.assumed)
+
+
+def test_every_end_that_open_ends_anchors_is_listed(load):
+    said = assumed(load(STRAIGHT, anchors=("open-ends",)))
+    for node, where in (("10", "E 0.00"), ("30", "E 3000.00")):
+        assert f"node {node}: open end of PIPE" in said
+        assert f"at {where} N 0.00 U 0.00 mm anchored (open-ends)" in said
+    assert "is free" not in said
+
+
+@pytest.mark.parametrize("keyword", ["CAP", "PLUG", "FLANGE-BLIND"])
+def test_an_end_closed_by_one_point_is_a_mass_and_never_anchored(load, keyword):
+    closed = block(keyword, (3000, 0, 0), WEIGHT="5")
+    imported = load(STRAIGHT + closed, anchors=("open-ends",))
+    assert anchors(imported) == ["10"]
+    (mass,) = imported.model.masses
+    assert (mass.node, mass.mass) == ("30", pytest.approx(5.0))
+    assert len(imported.model.pipes) == 2
+
+
+def test_a_cap_without_length_and_weight_is_reported(load):
+    imported = load(STRAIGHT + block("CAP", (3000, 0, 0)), anchors=("open-ends",))
+    assert anchors(imported) == ["10"]
+    assert "CAP of line 16: closes node 30" in assumed(imported)
+    with pytest.raises(DeckError, match="FLANGE-BLIND of line 16: its weight is not in the file"):
+        load(STRAIGHT + block("FLANGE-BLIND", (3000, 0, 0)))
+
+
+def test_a_cap_reaches_from_its_one_end_to_its_coordinates(load):
+    cap = block("CAP", (3000, 0, 0)) + "    CO-ORDS 3050.0 0.0 0.0\n"
+    imported = load(STRAIGHT + cap, anchors=("open-ends",))
+    assert anchors(imported) == ["10"]
+    assert imported.model.pipes[-1].delta == pytest.approx((0.05, 0.0, 0.0))
+
+
+def test_a_cap_written_from_its_far_side_closes_the_end_as_well(load):
+    cap = block("CAP", (3050, 0, 0), (3000, 0, 0))
+    assert anchors(load(STRAIGHT + cap, anchors=("open-ends",))) == ["10"]
+
+
+def test_a_cap_that_closes_nothing_is_free_and_reported(load):
+    cap = block("CAP", (9000, 0, 0), (9050, 0, 0))
+    imported = load(STRAIGHT + cap, anchors=("open-ends",))
+    assert anchors(imported) == ["10", "30"]
+    assert "is free; not for open-ends: it closes nothing" in assumed(imported)
+    with pytest.raises(DeckError, match="CAP of line 16: no length, and no component ends there"):
+        load(STRAIGHT + block("CAP", (9000, 0, 0)))
+
+
+def test_a_closed_end_position_is_no_open_end(load):
+    text = STRAIGHT + "END-POSITION-CLOSED\n    CO-ORDS 3000.0 0.0 0.0\n"
+    imported = load(text, anchors=("open-ends",))
+    assert anchors(imported) == ["10"]
+    assert "is free; not for open-ends: END-POSITION-CLOSED" in assumed(imported)
+
+
+def test_a_body_without_length_within_a_pipe_splits_it_under_its_mass(load):
+    text = STRAIGHT + block("INSTRUMENT", (500, 0, 0), WEIGHT="9").replace(
+        "    WEIGHT", "    END-POINT 500.0 0.0 0.0 100\n    WEIGHT"
+    )
+    model = load(text).model
+    (mass,) = model.masses
+    assert model.pipes[0].end == mass.node
+    assert (model.pipes[0].delta, mass.mass) == ((0.5, 0.0, 0.0), pytest.approx(9.0))
+
+
+GAP = HEADER + pipe((0, 0, 0), (1000, 0, 0)) + pipe((1003, 0, 0), (3000, 0, 0))
+UNKNOWN = STRAIGHT + block("FLUX-CAPACITOR", (3000, 0, 0), (3500, 0, 0))
+UNKNOWN += pipe((3500, 0, 0), (6000, 0, 0))
+
+
+@pytest.mark.parametrize(
+    ("text", "held", "why"),
+    [
+        (GAP, ["10", "40"], "gap of 3.00 mm in the line"),
+        (UNKNOWN, ["10", "50"], "FLUX-CAPACITOR of line 16 is left out"),
+    ],
+)
+def test_a_cut_in_the_line_is_not_held_by_anchors_of_open_ends(load, text, held, why):
+    imported = load(text, permissive=True, anchors=("open-ends",))
+    assert anchors(imported) == held
+    said = assumed(imported)
+    assert said.count(f"is free; not for open-ends: {why}") == 2
+    second = imported.model.nodes[1].label
+    assert "2 separate parts, not joined to each other: from node 10 (line 10), from" in said
+    assert f"from node {second} (line " in said
+
+
+def test_the_third_end_at_a_gap_is_no_open_end_either(load):
+    text = GAP + pipe((1000, 3, 0), (1000, 3000, 0))
+    imported = load(text, permissive=True, anchors=("open-ends",))
+    assert len(anchors(imported)) == 3
+    assert assumed(imported).count("not for open-ends: gap of") == 3
+
+
+def test_the_branch_that_a_teed_elbow_loses_is_no_open_end(load):
+    bend = block(
+        "ELBOW-TEED",
+        *((2847.6, 0, 0), (3000, 152.4, 0)),
+        centre=(3000, 0, 0),
+        branch=(3100, 0, 0),
+    )
+    text = HEADER + pipe((0, 0, 0), (2847.6, 0, 0)) + bend
+    text += pipe((3000, 152.4, 0), (3000, 900, 0)) + pipe((3100, 0, 0), (4000, 0, 0), 80.0)
+    imported = load(text, permissive=True, anchors=("open-ends",))
+    assert len(anchors(imported)) == 3
+    assert "not for open-ends: the branch of ELBOW-TEED of line 13 is left out" in assumed(imported)
+
+
+@pytest.mark.parametrize("command", ["check", "run"])
+def test_a_permissive_model_that_fails_says_what_it_lacks(tmp_path, command):
+    (tmp_path / "line.pcf").write_text(GAP)
+    words = [sys.executable, "-m", "trunnion", command, "line.pcf", "--permissive"]
+    done = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 2, done.stderr
+    assert done.stderr.startswith("from line.pcf, PCF")
+    assert "\nLEFT OUT: line: gap of 3.00 mm in the line: PIPE of line 10 ends at" in done.stderr
+    assert "\nassumed: node 20: end of PIPE of line 10" in done.stderr
+    assert "structure: " in done.stderr
+
+
+def test_a_batch_names_what_a_model_that_fails_lacks(tmp_path):
+    (tmp_path / "line.pcf").write_text(GAP)
+    entry = trunnion.batch([tmp_path / "line.pcf"], tmp_path / "out", permissive=True)["line"]
+    assert any(cause.startswith("LEFT OUT: line: gap of 3.00 mm") for cause in entry.causes)
+
+
+def test_errors_of_every_kind_come_at_once(tmp_path):
+    """An unknown component, a gap, walls of two bores, material, two weights, a support."""
+    path = tmp_path / "line.pcf"
+    text = UNKNOWN + pipe((6003, 0, 0), (7000, 0, 0))
+    text += block("VALVE", (7000, 0, 0), (7300, 0, 0))
+    text += block("REDUCER-CONCENTRIC", ((7300, 0, 0), 100), ((7400, 0, 0), 80))
+    text += block("INSTRUMENT", (7400, 0, 0), (7600, 0, 0), bore=80.0)
+    path.write_text(text + support((500, 0, 0), None, None, "CA-77"))
+    with pytest.raises(DeckError) as error:
+        read_any(path)
+    said = "\n".join(texts(error))
+    for words in (
+        "FLUX-CAPACITOR is no component",
+        "gap of 3.00 mm",
+        "wall of bore 100",
+        "wall of bore 80",
+        "material is not in the file",
+        "VALVE of line 25: its weight",
+        "INSTRUMENT of line 31: its weight",
+        "CA-77: nothing says what it holds",
+    ):
+        assert said.count(words) == 1, words
+    assert len(error.value.problems) == 8
+
+
+def test_what_a_file_lacks_is_told_with_points_that_cannot_be_read(tmp_path):
+    path = tmp_path / "line.pcf"
+    path.write_text(STRAIGHT.replace("3000.0000", "3OOO") + block("VALVE", (0, 0, 0), (-300, 0, 0)))
+    with pytest.raises(DeckError) as error:
+        read_any(path)
+    said = texts(error)
+    assert [text.partition(": ")[2][:24] for text in said] == [
+        "wall of bore 100 is not ",
+        "material is not in the f",
+        "END-POINT: 3OOO is no co",
+        "its weight is not in the",
+    ]
+
+
+def test_faults_of_the_side_table_come_with_those_of_the_file(load):
+    with pytest.raises(DeckError) as error:
+        load(UNKNOWN, "mux = 1\n")
+    said = "\n".join(texts(error))
+    assert "mux is no part" in said
+    assert "FLUX-CAPACITOR is no component" in said
+    assert "wall" not in said  # the table may have it
 
 
 def test_an_anchor_by_label_or_coordinates(load):

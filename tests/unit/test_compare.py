@@ -199,6 +199,128 @@ def test_a_result_without_manifest_and_one_without_deck_are_refused(change, caps
     assert "--deck PATH" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("options", [(), ("--certificate",)])
+def test_after_make_demo_a_result_finds_its_deck_in_models(tmp_path, monkeypatch, options, capsys):
+    """As `make demo` has it: decks in models, results in demo, and the command of the README."""
+    (tmp_path / "models").mkdir()
+    (tmp_path / "models" / "hot_header.inp").write_bytes((MODELS / "hot_header.inp").read_bytes())
+    monkeypatch.chdir(tmp_path)
+    assert leave("run", "models/hot_header.inp", "-o", "demo") == 0
+    readme = (MODELS.parent / "README.md").read_text()
+    assert "    trunnion verify demo/hot_header.json\n" in readme
+    capsys.readouterr()
+    assert leave("verify", *options, "demo/hot_header.json") == 0
+    out = capsys.readouterr().out
+    assert options or out == "5 cases agree with a new run of models/hot_header.inp\n"
+    monkeypatch.chdir("demo")
+    assert leave("verify", "--certificate", "hot_header.json") == 0
+
+
+@pytest.mark.parametrize("place", [".", "models", "out", "out/models", "here", "here/models"])
+def test_a_deck_is_found_by_its_hash_where_decks_are_kept(home, place, monkeypatch, capsys):
+    """Another deck of the same name, even one that cannot be read, does not hide it."""
+    (home / "out").mkdir()
+    (home / "here").mkdir()
+    (home / "a.json").rename(home / "out" / "a.json")
+    (home / "a.inp").write_text("PIPE\n")
+    (home / place).mkdir(exist_ok=True)
+    (home / place / "a.inp").write_text(DECK)
+    monkeypatch.chdir(home / "here")
+    assert leave("verify", "--certificate", "../out/a.json") == 0
+    assert capsys.readouterr().err == ""
+
+
+@pytest.mark.parametrize("options", [(), ("--certificate",)])
+def test_a_deck_that_is_not_found_is_asked_for_with_the_whole_command(home, options, capsys):
+    (home / "a.inp").rename(home / "kept.inp")
+    assert leave("verify", *options, "a.json") == 2
+    command = capsys.readouterr().err.splitlines()[-1].split()
+    assert command == ["trunnion", "verify", *options, "a.json", "--deck", "PATH/a.inp"]
+    assert leave(*command[1:-1], "kept.inp") == 0
+
+
+def test_verify_prints_the_largest_differences_and_counts_the_rest(change, capsys):
+    def edit(report):
+        for row in report["cases"]["OPE"]["nodes"].values():
+            row[0] += 0.001
+
+    change(edit)
+    assert leave("verify", "b.json") == 1
+    shown = capsys.readouterr().out.splitlines()
+    nodes = len(json.loads(Path("b.json").read_text())["cases"]["OPE"]["nodes"])
+    assert len(shown) == min(nodes, 21)
+    assert leave("verify", "--most", "2", "b.json") == 1
+    lines = capsys.readouterr().out.splitlines()
+    assert len(lines) == 3
+    assert lines[-1] == f"... and {nodes - 2} more differences"
+
+
+@pytest.fixture
+def plant(tmp_path, monkeypatch):
+    """A result of a PCF with a side table and anchors, in a folder of its own."""
+    for name in ("plant_line.pcf", "plant_line.toml"):
+        (tmp_path / name).write_bytes((MODELS / "foreign" / name).read_bytes())
+    monkeypatch.chdir(tmp_path)
+    options = ("--table", "plant_line.toml", "--anchor", "open-ends", "--tolerance", "2mm")
+    assert leave("run", "plant_line.pcf", "-o", "out", *options) == 0
+    return tmp_path
+
+
+def test_what_was_said_beside_a_pcf_is_in_the_manifest_and_found_again(plant, capsys):
+    import hashlib
+
+    manifest = json.loads((plant / "out" / "plant_line.json").read_bytes())["manifest"]
+    table = (plant / "plant_line.toml").read_bytes()
+    assert manifest["options"] == {
+        "table": "plant_line.toml",
+        "table_sha256": hashlib.sha256(table).hexdigest(),
+        "tolerance": 0.002,
+        "anchors": ["open-ends"],
+    }
+    for options in ((), ("--certificate",)):
+        assert leave("verify", *options, "out/plant_line.json") == 0
+    capsys.readouterr()
+    (plant / "plant_line.toml").write_bytes(table + b"# a comment\n")
+    assert leave("verify", "out/plant_line.json") == 2
+    assert capsys.readouterr().err.startswith(
+        "plant_line.toml: the table changed since plant_line.json was written"
+    )
+    (plant / "plant_line.toml").rename(plant / "kept.toml")
+    assert leave("verify", "out/plant_line.json") == 2
+    (said,) = capsys.readouterr().err.splitlines()
+    assert "its side table plant_line.toml is not beside the deck" in said
+    assert said.endswith("trunnion verify out/plant_line.json --table PATH/plant_line.toml")
+    (plant / "kept.toml").write_bytes(table)
+    assert leave("verify", "out/plant_line.json", "--table", "kept.toml") == 0
+
+
+@pytest.mark.parametrize(
+    ("place", "number"),
+    [
+        *((place, "1" + "0" * 400) for place in ("nodes", "elements", "modes")),
+        ("nodes", "-1" + "0" * 400),
+        ("nodes", "1" * 5000),
+        ("nodes", "1e999"),
+        ("elements", "-1e999"),
+    ],
+)
+@pytest.mark.parametrize(
+    "command", [("verify",), ("verify", "--certificate"), ("show",), ("diff", "a.json")]
+)
+def test_a_number_beyond_floating_point_is_refused(change, number, place, command, capsys):
+    def edit(report):
+        case = report["cases"]["OPE"]
+        rows = {"nodes": case["nodes"]["40"], "elements": case["elements"][1]["force_to"]}
+        rows.get(place, report["modes"]["frequency_hz"])[:1] = ["HUGE"]
+
+    change(edit)
+    text = Path("b.json").read_text()
+    assert text.count('"HUGE"') == 1
+    Path("b.json").write_text(text.replace('"HUGE"', number))
+    assert leave(*command, "b.json") == 2
+    assert capsys.readouterr().err.startswith("b.json: ")
+
+
 # ---------------------------------------------------------------------- diff
 def test_decks_that_say_the_same_are_the_same(home, capsys):
     (home / "b.inp").write_text(DECK.replace("R=381", "R=0.381m ! in metres").lower())

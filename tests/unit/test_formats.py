@@ -132,6 +132,15 @@ def test_the_source_is_never_overwritten(home, capsys):
     assert not (home / "c.toy").exists()
 
 
+def test_a_deck_that_is_there_is_written_over_only_with_force(home, capsys):
+    (home / "kept.inp").write_text("! by hand\n")
+    assert leave("convert", "a.toy", "kept.inp") == 2
+    assert "kept.inp exists; --force writes over it" in capsys.readouterr().err
+    assert (home / "kept.inp").read_text() == "! by hand\n"
+    assert leave("convert", "--force", "a.toy", "kept.inp") == 0
+    assert "! by hand" not in (home / "kept.inp").read_text()
+
+
 def test_a_bad_source_leaves_no_deck(home):
     assert leave("convert", "odd.toy", "odd.inp") == 2
     assert not (home / "odd.inp").exists()

@@ -277,6 +277,86 @@ def test_tables_of_another_shape_fail_by_name(home, written, place, value, capsy
     assert said.err == ""
 
 
+@pytest.mark.parametrize(
+    ("name", "place", "value"),
+    [
+        *((c, ("cases", c, "certificate", "passed"), False) for c in ("OPE", "EQN", "EXP", "RSP")),
+        *((c, ("cases", c, "certificate", "worst"), 1e-3) for c in ("OPE", "EQN", "EXP", "RSP")),
+        ("OPE", ("cases", "OPE", "certificate", "equilibrium"), 1e-3),
+        ("OPE", ("cases", "OPE", "certificate", "items", 1, "value"), 1e-3),
+        ("EXP", ("cases", "EXP", "certificate", "items", 1, "value"), 1e-11),
+        ("CYCLE HEAT", ("cycles", "HEAT", "states", 1, "certificate", "worst"), 1e-3),
+        *((c, ("cases", c, "text"), "W") for c in ("OPE", "EQX", "EQN", "EXP", "RSP")),
+        ("OPE", ("cases", "OPE", "converged"), False),
+        ("title", ("title",), "another"),
+        ("manifest", ("manifest", "settings", "iteration"), "PICARD"),
+        ("winds", ("winds",), [1]),
+        ("hangers", ("hangers",), [1]),
+    ],
+)
+def test_a_file_that_contradicts_itself_or_its_deck_fails(
+    home, written, name, place, value, capsys
+):
+    report = json.loads(written)
+    inside = report
+    for key in place[:-1]:
+        inside = inside[key]
+    assert inside.get(place[-1]) != value if isinstance(inside, dict) else True
+    inside[place[-1]] = value
+    (home / "b.json").write_text(json.dumps(report))
+    assert leave("verify", "--certificate", "b.json") == 1
+    assert f"{name}: FAILS: " in capsys.readouterr().out
+
+
+SUMS = """\
+UNITS    mm kN bar C
+MATERIAL S  E=203GPa NU=0.3 ALPHA=12e-6 DENSITY=7850
+SECTION  P  OD=273.1 WALL=9.27
+OPERATE  T1=170 P1=12 TREF=20
+ANCHOR   0
+PIPE     0 10  DX=6000
+PIPE     10 20 DZ=6000
+SUPPORT  20    Y
+"""
+
+
+def test_certificates_of_sums_are_upper_bounds_and_no_more(home, capsys):
+    """Eight cases of two loads: sums, whose first item is `sum`."""
+    cases = [f"CASE C{i} = W + {i}*T1" for i in range(2, 10)]
+    (home / "s.inp").write_text(SUMS + "\n".join([*cases, "COMB D = C4 - C3"]) + "\n")
+    assert leave("run", "s.inp") == 0
+    report = json.loads((home / "s.json").read_text())
+    items = report["cases"]["C4"]["certificate"]["items"]
+    assert items[0]["name"] == "sum"
+    capsys.readouterr()
+    assert leave("verify", "--certificate", "s.json") == 0
+    report["cases"]["C4"]["certificate"]["passed"] = False
+    (home / "s.json").write_text(json.dumps(report))
+    assert leave("verify", "--certificate", "s.json") == 1
+    assert "C4: FAILS: certificate: passed" in capsys.readouterr().out
+
+
+def test_another_version_is_said(home, written, capsys):
+    report = json.loads(written)
+    report["manifest"]["version"] = "9.9"
+    (home / "b.json").write_text(json.dumps(report))
+    assert leave("verify", "--certificate", "b.json") == 0
+    assert capsys.readouterr().out.startswith("made by version 9.9, judged by ")
+
+
+def test_modes_that_the_deck_does_not_ask_for_fail(home, capsys):
+    without = [x for x in DECK.splitlines() if "SPECTRUM" not in x and "RSP" not in x]
+    (home / "c.inp").write_text("\n".join(x for x in without if x[:5] != "MODES") + "\n")
+    assert leave("run", "c.inp") == 0
+    assert leave("verify", "--certificate", "c.json") == 0
+    report = json.loads((home / "c.json").read_text())
+    report["modes"]["frequency_hz"].append(3.0)
+    (home / "c.json").write_text(json.dumps(report))
+    capsys.readouterr()
+    assert leave("verify", "--certificate", "c.json") == 1
+    assert "modes: FAILS: the deck asks for none" in capsys.readouterr().out
+
+
 def test_other_answers_are_not_judged(home, capsys):
     assert leave("run", MODELS / "strut_three.inp", "-o", home, "--spread", 3) == 0
     capsys.readouterr()

@@ -2,6 +2,9 @@
 
 import json
 import re
+import subprocess
+from base64 import b64decode
+from io import BytesIO
 
 import numpy as np
 import pytest
@@ -9,9 +12,10 @@ from pagebrowser import choose, chromium, opened, picture, requests, until_drawn
 
 import trunnion
 from trunnion.arrays import Pass
+from trunnion.certificate.scales import measure
 from trunnion.cli import main
 from trunnion.report import html
-from trunnion.report.html.story import course, words
+from trunnion.report.html.story import course, stories, words
 from trunnion.report.units import report_units
 from trunnion.results.supports import card_levels
 
@@ -218,8 +222,6 @@ def parts_browser(parts):
 
 def drawn_radii(page, kind):
     """Radii of the rings of the element of a type, and the places of the rings along it."""
-    from base64 import b64decode
-
     text = page.read_text(encoding="utf-8")
     data = text.split('<script type="application/json" id="data">')[1].split("</script>")[0]
     scene = json.loads(data)["scene"]
@@ -360,6 +362,155 @@ def test_paper_has_every_table_and_no_buttons(parts_browser):
     page = 186 / 273 * 1260  # a landscape A4 less its margins, as wide as the page is laid out
     assert 300 < high < page
     assert caption.startswith("OPE = W + P1 + T1: displacement; movements \u00d7 ")
+
+
+def pixels(png):
+    """(high, wide, 3) colours from 0 to 1."""
+    from matplotlib.image import imread
+
+    return imread(BytesIO(png))[..., :3]
+
+
+def printed(browser, folder):
+    """Pixels of the first page on paper."""
+    pdf = browser.execute_cdp_cmd(
+        "Page.printToPDF", {"preferCSSPageSize": True, "printBackground": True}
+    )
+    (folder / "page.pdf").write_bytes(b64decode(pdf["data"]))
+    command = ["pdftoppm", "-png", "-r", "80", "-l", "1", "-singlefile", "page.pdf", "page"]
+    subprocess.run(command, cwd=folder, check=True)
+    return pixels((folder / "page.png").read_bytes())
+
+
+def coloured(image):
+    """Part of the pixels that are far from grey."""
+    return float((np.ptp(image, axis=2) > 0.3).mean())
+
+
+@pytest.mark.parametrize("wide", [1000, 1440, 2200])
+def test_paper_shows_the_model_as_it_is_seen(parts_browser, tmp_path, wide):
+    """In the middle of the page: colour bar and legend, no canvas, stand beside and above."""
+    browser = parts_browser
+    size = {"width": wide, "height": 900, "deviceScaleFactor": 1, "mobile": False}
+    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
+    try:
+        browser.refresh()
+        until_drawn(browser, "OPE move")
+        choose(browser, "colour", "bending")
+        until_drawn(browser, "OPE bending")
+        first = printed(browser, tmp_path)
+        choose(browser, "colour", "move")
+        until_drawn(browser, "OPE move")
+        second = printed(browser, tmp_path)
+        left = browser.execute_script("return document.querySelectorAll('canvas').length")
+    finally:
+        browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+    high, across = first.shape[:2]
+    middle = np.s_[int(0.3 * high) : int(0.85 * high), int(0.2 * across) : int(0.8 * across)]
+    for page in (first, second):
+        assert coloured(page[middle]) > 0.005
+        assert coloured(page[:, : int(0.04 * across)]) < 1e-3  # margins stay empty
+        assert coloured(page[:, int(0.97 * across) :]) < 1e-3
+    assert (np.abs(first - second)[middle].max(axis=2) > 0.2).mean() > 0.002
+    assert left == 1  # the canvas for paper has gone
+
+
+def test_the_picture_ends_where_the_window_of_a_laptop_does(parts_browser):
+    browser = parts_browser
+    size = {"width": 1366, "height": 657, "deviceScaleFactor": 1, "mobile": False}
+    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
+    try:
+        browser.refresh()
+        until_drawn(browser, "OPE move")
+        ends = browser.execute_script(
+            """
+            window.scrollTo(0, 0);
+            return ['.stage', '#scene', '#scene .colorbar'].map((s) =>
+                document.querySelector(s).getBoundingClientRect().bottom);"""
+        )
+    finally:
+        browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+    assert max(ends) <= 657
+    assert ends[1] > 600
+
+
+def test_digits_of_node_labels_are_as_high_as_those_of_text(parts_browser):
+    """The height of a digit in a font of 12 px is 8 to 9 px."""
+    from scipy.ndimage import find_objects, label
+
+    browser = parts_browser
+    seen = []
+    for shown in (False, True):
+        browser.execute_script(
+            "document.getElementById('scene').dataset.drawn = '';"
+            "const b = document.getElementById('names'); b.checked = arguments[0];"
+            "b.dispatchEvent(new Event('change'));",
+            shown,
+        )
+        until_drawn(browser, "OPE move")
+        seen.append(pixels(picture(browser)))
+    browser.execute_script(
+        "const b = document.getElementById('names'); b.checked = false;"
+        "b.dispatchEvent(new Event('change'));"
+    )
+    inked = np.abs(seen[1] - seen[0]).max(axis=2) > 0.3
+    blots, n = label(inked, np.ones((3, 3)))
+    heights = [rows.stop - rows.start for rows, _ in find_objects(blots)]
+    assert n > 10
+    assert 7 <= np.median(heights) <= 12
+
+
+def test_the_legend_names_the_types_of_supports(parts_browser):
+    lines = parts_browser.execute_script(
+        "return [...document.querySelectorAll('#legend div')].map((d) => [d.textContent,"
+        "d.querySelector('i').style.background])"
+    )
+    names = [name for name, _ in lines]
+    assert names == ["anchor", "rest", "guide", "snubber", "load on the restraint"]
+    assert len({colour for _, colour in lines}) == len(names)
+
+
+# ------------------------------------------------------------------ convergence of a case
+def test_iterations_are_relative_to_a_force_with_its_unit(page):
+    model = trunnion.read(page.with_suffix(".inp"))
+    results = trunnion.solve(model)
+    case = results["OPE"]
+    told = next(s for s in stories(results, report_units(model.units)) if s["case"] == "OPE")
+    force = measure(case.system, case.loads, case.state).force
+    assert told["axis"] == f"out of balance / {force * 1e-3:.3g} kN"
+    for entry, record in zip(told["passes"], case.history, strict=True):
+        assert entry["residual"] == pytest.approx(record["residual"] / force, rel=1e-12)
+        assert entry["said"] == f"{record['residual'] * 1e-3:.2e} kN"
+
+
+def test_a_story_says_whether_its_case_is_certified(page):
+    model = trunnion.read(page.with_suffix(".inp"))
+    results = trunnion.solve(model)
+    case, units = results["OPE"], report_units(model.units)
+    told = next(s for s in stories(results, units) if s["case"] == "OPE")
+    worst = f"worst item {case.certificate.worst:.1e} ({case.certificate.where})"
+    assert told["verdict"] == f"Converged and certified: {worst}, allowed 1.0e-09."
+    assert told["worst"] == case.certificate.worst < told["limit"] == 1e-9
+    case.converged, case.cause = False, "20 +Y GUIDE goes to and fro"
+    told = next(s for s in stories(results, units) if s["case"] == "OPE")
+    assert told["verdict"] == "NOT CONVERGED: 20 +Y GUIDE goes to and fro"
+    assert not told["good"]
+
+
+def test_charts_have_the_star_of_the_certificate_below_its_limit(page, browser):
+    charts = browser.execute_script(
+        """
+        return [...document.querySelectorAll('.residual')].map((chart) => [
+            chart.layout.yaxis.title.text, chart.data.map((t) => [t.name, t.y])]);"""
+    )
+    assert charts
+    for title, traces in charts:
+        assert title.endswith(" kN")
+        _, balance, limit, star = traces
+        assert balance[0] == "out of balance"
+        assert limit[0] == "allowed in the certificate, 1e-9"
+        assert star[0].startswith("certificate, worst item ")
+        assert star[1][0] < limit[1][0] == 1e-9
 
 
 def test_the_whole_outline_stands_in_the_middle_and_in_sight(parts_browser):

@@ -62,6 +62,38 @@ def words(session):
 
 
 # ------------------------------------------------------------------ the summary
+LIFTS = """\
+SUPPORT 10 +Y
+SUPPORT 20 -Y GAP=50
+SUPPORT 30 +Y LIMIT GUIDE
+FORCE 30 F1 FY=200
+CASE SUS = W
+CASE UP = W + F1
+CASE UP2 = W + 1.1*F1
+"""
+
+
+def test_rests_that_lift_are_named_though_their_limit_slides(tmp_path):
+    """A stop from above that is not reached is no rest; the other directions of 30 hold."""
+    text = HEAD + "".join(f"PIPE {10 * i} {10 * i + 10} DX=6000\n" for i in range(4))
+    (tmp_path / "line.inp").write_text(text + "SUPPORT 40 +Y\n" + LIFTS)
+    found = on_terminal(["run", "line.inp", "-o", "o"], cwd=tmp_path)
+    (row,) = [row for row in found.screen if "lifted off" in row]
+    assert row.split("lifted off")[1].strip().startswith("in UP, UP2: ")
+    assert "30 +Y" in row
+    assert "20 -Y" not in row
+    head = next(row for row in found.screen if "CASE" in row)
+    assert "OPEN" in head
+
+
+def test_a_screen_of_80_columns_keeps_open_rather_than_slip(tmp_path):
+    found = on_terminal(["run", MODELS / "hot_header.inp", "-o", tmp_path], cwd=tmp_path)
+    head = next(row for row in found.screen if "CASE" in row).split()
+    assert "OPEN" in head
+    assert "SLIP" not in head
+    assert "70 +Y" in next(row for row in found.screen if "lifted off" in row)
+
+
 @pytest.mark.parametrize("size", [(80, 24), (120, 40), (60, 24), (44, 24)])
 @pytest.mark.parametrize(("cases", "supports"), [(3, 4), (40, 4), (3, 300)])
 def test_the_summary_fits_the_screen(tmp_path, size, cases, supports):

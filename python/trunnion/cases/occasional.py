@@ -77,7 +77,7 @@ class LockedPass:
         name, which, locks = key
         about = self.run.found[name]
         structure, keep = self.structure(about, snubbers=locks, which=which)
-        questions = [self._question(case, structure) for case in cases]
+        questions = [self.question(case, structure) for case in cases]
         forcings = [forcing_of(structure, question) for question in questions]
         prepared = solve_linear(structure, forcings)
         held = structure.held
@@ -109,7 +109,7 @@ class LockedPass:
             about.system, about.state, base, keep, result.state, increment=increment
         )
 
-    def _question(self, case: Case, structure: Structure) -> Question:
+    def question(self, case: Case, structure: Structure) -> Question:
         """Loads of a locked case; movements and closed gaps of the frozen case stay out."""
         word = f"ABOUT={case.about}" if case.about else f"ON={case.on}"
         question = self.run.question_on(case, structure.system)

@@ -21,19 +21,21 @@ def check(deck: Path, permissive: bool, options: "Options | None") -> int:
     from trunnion.cases.default_cases import may_be_free, with_cases
     from trunnion.loads import case_loads, load_sets
     from trunnion.model import Case
+    from trunnion.origin import origin_lines, telling
     from trunnion.report.progress import shown
     from trunnion.system import build_system
 
     with shown(f"checking {deck.name}"):
         read = read_model(deck, permissive=permissive, options=options)
-        model = with_cases(read)
-        system = build_system(model)
-        sets = load_sets(model, system)
-        for case in model.cases:
-            if isinstance(case, Case):
-                case_loads(model, system, case, sets)
-        if not may_be_free(read):
-            _refuse_mechanisms(system)
+        with telling(read.origin):
+            model = with_cases(read)
+            system = build_system(model)
+            sets = load_sets(model, system)
+            for case in model.cases:
+                if isinstance(case, Case):
+                    case_loads(model, system, case, sets)
+            if not may_be_free(read):
+                _refuse_mechanisms(system)
     counts = (
         (len(system.labels), "nodes"),
         (len(system.parts), "elements"),
@@ -41,8 +43,6 @@ def check(deck: Path, permissive: bool, options: "Options | None") -> int:
         (len(model.cases), "cases"),
     )
     if read.origin is not None:
-        from trunnion.report.origin import origin_lines
-
         say("\n".join(origin_lines(read.origin)))
     say(f"{deck.name}: no errors; " + ", ".join(f"{n} {what}" for n, what in counts))
     return SOLVED

@@ -112,9 +112,11 @@ def read_model(
 def solve_model(model: "Model", spread: int = 0, watch: "Watch | None" = None) -> "Results":
     """Solve every case; with `spread` look for other answers from so many starts."""
     import trunnion
+    from trunnion.origin import telling
 
     asked: dict[str, Any] = {"spread": spread, "watch": watch}
-    results: Results = trunnion.solve(model, **{key: x for key, x in asked.items() if x})
+    with telling(model.origin):
+        results: Results = trunnion.solve(model, **{key: x for key, x in asked.items() if x})
     return results
 
 

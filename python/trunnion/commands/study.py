@@ -54,6 +54,7 @@ def study(
     from trunnion.cases.default_cases import with_cases
     from trunnion.many.axes import count, read_axes
     from trunnion.many.study import study as solve_study
+    from trunnion.origin import telling
     from trunnion.report.atomic import write_files
     from trunnion.report.progress import progress, shown
     from trunnion.report.study import study_report, study_screen
@@ -62,8 +63,9 @@ def study(
     refuse_unwritable(folder)
     with shown(f"reading {deck.name}"):
         model = read_model(deck, permissive=permissive, options=options)
-    total = count(read_axes(with_cases(model), vary))
-    with progress("variants", total) as counter:
+    with telling(model.origin):
+        total = count(read_axes(with_cases(model), vary))
+    with telling(model.origin), progress("variants", total) as counter:
         done = solve_study(
             model,
             vary,

@@ -1,5 +1,6 @@
 """trunnion verify: a stored result against its deck."""
 
+import shlex
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -10,7 +11,6 @@ from trunnion.commands.shared import (
     SOLVED,
     InputError,
     beside,
-    read_model,
     say,
     solve_model,
 )
@@ -25,7 +25,7 @@ WORDS = {True: "holds", False: "FAILS", None: "not judged"}
 
 @click.command()
 @click.argument("results", type=click.Path(path_type=Path))
-@click.option("--deck", type=click.Path(path_type=Path), help="The deck, if not beside RESULTS.")
+@click.option("--deck", type=click.Path(path_type=Path), help="The deck, if it is not found.")
 @click.option("--certificate", is_flag=True, help="Judge the stored numbers; solve nothing.")
 @click.option(
     "--allow",
@@ -34,71 +34,78 @@ WORDS = {True: "holds", False: "FAILS", None: "not judged"}
     show_default=True,
     help="Difference allowed, of the largest of its kind.",
 )
+@click.option(
+    "--most",
+    type=click.IntRange(1),
+    default=20,
+    show_default=True,
+    help="Print so many differences at most.",
+)
 @beside
 def verify(
-    results: Path, deck: Path | None, certificate: bool, allow: float, options: "Options | None"
+    results: Path,
+    deck: Path | None,
+    certificate: bool,
+    allow: float,
+    most: int,
+    options: "Options | None",
 ) -> int:
     """Run the deck of RESULTS.json again and compare, or judge its numbers alone.
 
+    The deck is looked for beside RESULTS.json, in the folder above, in the current one and in
+    folders models there.
+
     Exit 0: it agrees.  1: it differs.  2: bad input, as a deck that was changed since.
     """
+    from trunnion.commands.stored_source import Asked, read_source
     from trunnion.compare.stored import read_report
     from trunnion.report.progress import shown
 
+    typed = ["trunnion", "verify", *["--certificate"] * certificate, str(results)]
+    asked = Asked(results, deck, options, shlex.join(typed))
     with shown(f"reading {results.name}") as watch:
         report = read_report(results)
-        model = _model(report, results, deck, options)
+        place, model = read_source(report, asked)
         if certificate:
             code, said = _judge(report, model, watch)
         else:
-            code, said = _repeat(report, model, allow, watch)
+            code, said = _repeat(report, model, place, allow, most, watch)
     say(said)
     return code
 
 
-def _model(
-    report: dict[str, Any], results: Path, deck: Path | None, options: "Options | None"
-) -> "Model":
-    """Read the deck that the manifest names; refuse any other."""
-    manifest = report.get("manifest")
-    wanted = ("deck", "sha256", "version", "settings")
-    if not isinstance(manifest, dict) or any(key not in manifest for key in wanted):
-        raise InputError(f"{results.name}: no manifest; run its deck once with this version")
-    name, settings = str(manifest["deck"]), manifest["settings"]
-    if Path(name).name != name or not isinstance(settings, dict):
-        raise InputError(f"{results.name}: the manifest is not one of trunnion run")
-    place = deck or results.parent / name
-    if not place.exists():
-        raise InputError(f"{results.name}: its deck {name} is not beside it; say --deck PATH")
-    model = read_model(place, permissive=bool(settings.get("permissive")), options=options)
-    found = "" if model.file is None else model.file.sha256
-    if found != manifest["sha256"]:
-        raise InputError(
-            f"{place}: not the deck of {results.name}, or changed since (with its includes): "
-            f"SHA-256 is {found[:12]}..., in the manifest {str(manifest['sha256'])[:12]}..."
-        )
-    return model
-
-
 def _repeat(
-    report: dict[str, Any], model: "Model", allow: float, watch: "Watch | None"
+    report: dict[str, Any],
+    model: "Model",
+    place: Path,
+    allow: float,
+    most: int,
+    watch: "Watch | None",
 ) -> tuple[int, str]:
     """Solve the deck again and list what differs."""
     import json
-    from importlib.metadata import version
 
     from trunnion.compare.results import diff_results
     from trunnion.report.json import json_report
 
-    made, own = report["manifest"]["version"], version("trunnion")
-    lines = [] if made == own else [f"made by version {made}, run again by {own}"]
+    lines = _versions(report, "run again")
     again = json.loads(json_report(solve_model(model, watch=watch), model))
     changes = diff_results(report, again, allow)
-    lines += map(str, changes)
+    lines += map(str, changes[:most])
+    if len(changes) > most:
+        lines.append(f"... and {len(changes) - most} more differences")
     if not changes:
-        n, name = len(report["cases"]), report["manifest"]["deck"]
-        lines.append(f"{n} case{'s agree' if n != 1 else ' agrees'} with a new run of {name}")
+        n = len(report["cases"])
+        lines.append(f"{n} case{'s agree' if n != 1 else ' agrees'} with a new run of {place}")
     return FAILED if changes else SOLVED, "\n".join(lines)
+
+
+def _versions(report: dict[str, Any], word: str) -> list[str]:
+    """Say where the file names another version than this one."""
+    from importlib.metadata import version
+
+    made, own = report["manifest"]["version"], version("trunnion")
+    return [] if made == own else [f"made by version {made}, {word} by {own}"]
 
 
 def _judge(report: dict[str, Any], model: "Model", watch: "Watch | None") -> tuple[int, str]:
@@ -106,7 +113,8 @@ def _judge(report: dict[str, Any], model: "Model", watch: "Watch | None") -> tup
     from trunnion.compare.rejudge import rejudge
 
     verdicts = rejudge(report, model, watch)
-    said = "\n".join(f"{v.case}: {WORDS[v.passed]}: {v.text}" for v in verdicts)
+    lines = [f"{v.case}: {WORDS[v.passed]}: {v.text}" for v in verdicts]
+    said = "\n".join([*_versions(report, "judged"), *lines])
     failed = any(verdict.passed is False for verdict in verdicts)
     if not failed and not any(verdict.passed for verdict in verdicts):
         raise InputError("no case could be judged")

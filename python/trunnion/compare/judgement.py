@@ -12,6 +12,7 @@ import numpy as np
 from trunnion.arrays import CaseResult
 from trunnion.cases.snubbed import go_on, locked_at_rest
 from trunnion.certificate import certify
+from trunnion.compare.claims import false_claim
 from trunnion.compare.restored import stored_state
 from trunnion.frozen import frozen
 from trunnion.model import Case
@@ -86,7 +87,7 @@ def judged(
         correction_r=_number(claimed["correction_r"]),
     )
     result = CaseResult(
-        question.name, "case", str(stored.get("text", question.text)), structure.system,
+        question.name, "case", question.text, structure.system,
         question.loads, state, True, certificate=found,
     )  # fmt: skip
     datum = np.zeros((len(structure.sliders.mu), 3))
@@ -99,7 +100,7 @@ def judged(
         state.datum, start.datum[: len(state.datum)]
     ):
         return Judged(result, end, "its sliders do not start where the pipe was")
-    return Judged(result, end)
+    return Judged(result, end, false_claim(found, stored))
 
 
 def one_step(question: Question, stored: Mapping[str, Any]) -> bool:

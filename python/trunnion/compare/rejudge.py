@@ -12,6 +12,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from trunnion.arrays import CaseResult, FrozenBreak, HangerChoice
+from trunnion.compare.claims import false_claim, false_members
 from trunnion.compare.judgement import SHAPE, Verdict, has_numbers, judged, start_of
 from trunnion.compare.written import changed
 from trunnion.model import Case, Comb, Model
@@ -30,6 +31,7 @@ def rejudge(report: Stored, model: Model, watch: Watch | None = None) -> list[Ve
     from trunnion.cases.casetext import in_order
     from trunnion.cases.default_cases import with_cases
 
+    given = model
     choices: tuple[HangerChoice, ...] = ()
     if any(s.design is not None for s in model.supports):
         from trunnion.cases.hangers import designed
@@ -63,7 +65,8 @@ def rejudge(report: Stored, model: Model, watch: Watch | None = None) -> list[Ve
         from trunnion.compare.rejudge_cycles import judge_cycle
 
         behind = [judge_cycle(run, c, report) for c in whole.cycles] + behind
-    return [found[name] for name in names] + behind + _tables(run, report, choices)
+    claims = [Verdict(name, False, said) for name, said in false_members(report, given)]
+    return [found[name] for name in names] + behind + _tables(run, report, choices) + claims
 
 
 def _guarded(run: "Run", case: Case | Comb, stored: Stored) -> Verdict:
@@ -71,6 +74,8 @@ def _guarded(run: "Run", case: Case | Comb, stored: Stored) -> Verdict:
     run.ledger.watch.begin(case.name)
     if not stored["converged"]:
         run.found[case.name] = _nothing(run, case)
+        if "nodes" in stored:
+            return Verdict(case.name, False, "it is not converged, but has numbers")
         return Verdict(case.name, None, f"no numbers: {stored.get('cause')}")
     missing = [name for name in _parents(case) if not has_numbers(run, name)]
     if missing:
@@ -106,8 +111,7 @@ def _case(run: "Run", case: Case, stored: Stored) -> Verdict:
         structure, keep = locked.structure(
             about, snubbers=case.about is not None, which=locked.hot(case)
         )
-        question = run.question_on(case, structure.system)
-        it = judged(structure, question, at_rest(structure), stored)
+        it = judged(structure, locked.question(case, structure), at_rest(structure), stored)
         breaks = locked.breaks(about, keep, case, it.result)
     else:
         structure = run.structure(case)
@@ -134,6 +138,7 @@ def _nonlinear(run: "Run", case: Case, stored: Stored) -> Verdict:
     result = locked.increment(case, about, it.result, start)
     run.found[case.name] = result
     fault = it.fault or changed(result, stored) or changed(it.result, stored["total"], STATE)
+    fault = fault or false_claim(result.certificate, stored)
     return Verdict(case.name, not fault, fault or f"both loads together: {it.text}")
 
 
@@ -144,7 +149,7 @@ def _comb(run: "Run", case: Comb, stored: Stored) -> Verdict:
     """Form a combination again from its cases."""
     result = combine(case, run.found)
     run.found[case.name] = result
-    fault = changed(result, stored)
+    fault = changed(result, stored) or false_claim(result.certificate, stored)
     return Verdict(case.name, not fault, fault or "the same from its cases")
 
 

@@ -15,6 +15,7 @@ import numpy as np
 
 from trunnion.arrays import F8, CaseResult, ModeSet, System, sizes
 from trunnion.cases.dynamics import Dynamics
+from trunnion.compare.claims import false_claim
 from trunnion.compare.judgement import SHAPE, Verdict, has_numbers
 from trunnion.compare.restored import moved
 from trunnion.compare.written import far, written
@@ -32,7 +33,7 @@ LIMIT = 1e-9  # of a mode's residual
 APART = 1e-8  # of x M x' from the unit matrix
 FOLLOWS = ("frequency_hz", "period_s", "participation", "effective_mass", "effective_mass_percent",
            "effective_mass_sum_percent", "total_mass", "rigid", "added_nodes")  # fmt: skip
-ANSWER = ("nodes", "supports", "elements", "stresses")
+ANSWER = ("kind", "text", "nodes", "supports", "elements", "stresses")
 Stored = Mapping[str, Any]
 
 
@@ -167,6 +168,7 @@ def _spectrum(run: "Run", dynamics: Dynamics, case: Case, stored: Stored) -> Ver
         return Verdict(case.name, False, str(found.cause))
     again, supports = written(found), stored["supports"]
     fault = far(again, stored, ANSWER)
+    fault = fault or false_claim(found.certificate, stored)
     if fault:
         return Verdict(case.name, False, fault)
     run.found[case.name] = _restored(found, stored, supports)

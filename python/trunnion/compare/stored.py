@@ -1,6 +1,8 @@
 """A JSON report read back: checked as far as the commands lean on it."""
 
 import json
+import math
+import sys
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -8,6 +10,7 @@ from trunnion.errors import ModelError, Problem
 
 Report = dict[str, Any]
 MAX_BYTES = 4_000_000_000
+LARGEST = sys.float_info.max  # 1e999 is read as infinity
 TABLES = ("nodes", "supports", "elements")  # of a case with numbers
 VECTORS = {"supports": ("force", "moment"), "elements": ("force_from", "force_to")}
 
@@ -22,7 +25,13 @@ def read_report(path: Path) -> Report:
     try:
         if path.stat().st_size > MAX_BYTES:
             refuse(path, f"larger than {MAX_BYTES // 10**9} GB")
-        report = json.loads(path.read_bytes(), parse_constant=lambda word: refuse(path, word))
+        report = json.loads(
+            path.read_bytes(),
+            parse_constant=lambda word: refuse(path, word),
+            parse_int=lambda digits: _whole(path, digits),
+        )
+    except ModelError:
+        raise
     except OSError as error:
         refuse(path, error.strerror or "cannot be read")
     except (ValueError, RecursionError) as error:
@@ -42,6 +51,13 @@ def read_report(path: Path) -> Report:
 def refuse(path: Path, message: str) -> NoReturn:
     """Refuse a stored result."""
     raise ModelError([Problem(path.name, message)])
+
+
+def _whole(path: Path, digits: str) -> int:
+    """Read a whole number that has a place among floating-point numbers."""
+    if len(digits) > 300 and math.isinf(float(digits)):
+        refuse(path, f"a whole number of {len(digits.lstrip('-'))} digits, beyond 1e308")
+    return int(digits)
 
 
 def _fault(case: Report) -> str:
@@ -69,5 +85,8 @@ def _six(value: object, count: int) -> bool:
     return (
         isinstance(value, list)
         and len(value) == count
-        and all(isinstance(x, int | float) and not isinstance(x, bool) for x in value)
+        and all(
+            isinstance(x, int | float) and not isinstance(x, bool) and abs(x) <= LARGEST
+            for x in value
+        )
     )

@@ -11,8 +11,8 @@ from typing import Any
 
 from trunnion.arrays import CaseResult, Results
 
-WRITTEN = ("loads", "reactions", "frozen_check", "nodes", "nodes_low", "supports", "elements",
-           "stresses")  # fmt: skip
+WRITTEN = ("kind", "text", "loads", "reactions", "frozen_check", "nodes", "nodes_low",
+           "supports", "elements", "stresses")  # fmt: skip
 CLOSE, ROUND_OFF = 1e-9, 1e-13
 
 

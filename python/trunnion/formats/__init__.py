@@ -16,7 +16,7 @@ from trunnion.formats.options import NONE, Options
 from trunnion.formats.source import Source, read_source
 from trunnion.frozen import frozen
 from trunnion.model import Place
-from trunnion.origin import InputFile
+from trunnion.origin import Beside, InputFile
 
 __all__ = ["FORMATS", "Findings", "Imported", "Note", "Options", "Source", "is_foreign", "read_any"]
 
@@ -75,8 +75,22 @@ def read_any(
         raise DeckError([Problem(Place(source.file, 1), text)])
     read: Callable[[Source, Findings], Imported] = import_module(form.module).read
     found = read(source, Findings(source, permissive=permissive, options=options))
-    found.model.file = InputFile(os.path.basename(source.file), source.sha256)
+    name = os.path.basename(source.file)
+    found.model.file = InputFile(name, source.sha256, _beside(options))
     return found
+
+
+def _beside(options: Options) -> Beside | None:
+    """Name what the user said beside the file, without folders; None if nothing."""
+    if not options.given():
+        return None
+    table = options.table
+    return Beside(
+        None if table is None else os.path.basename(table),
+        None if table is None else read_source(table).sha256,
+        options.tolerance,
+        tuple(options.anchors),
+    )
 
 
 def _suffix_of(source: Source) -> str:

@@ -7,7 +7,7 @@ from trunnion.formats.imported import Imported, Note
 from trunnion.formats.options import NONE, Options
 from trunnion.formats.source import Source
 from trunnion.model import Model, Place
-from trunnion.origin import Assumption, LeftOut, Origin
+from trunnion.origin import Assumption, LeftOut, Origin, telling
 
 MOST = 10_000  # problems, omissions, assumptions or comments of each kind that are kept
 
@@ -31,6 +31,7 @@ class Findings:
         self.left_out: list[LeftOut] = []
         self.assumed: list[Assumption] = []
         self.notes: list[Note] = []
+        self._passable = 0  # problems that --permissive would go past
         self._said: set[str] = set()
         self._noted: dict[int, list[int]] = {}  # identity of a record -> its notes
 
@@ -46,15 +47,17 @@ class Findings:
                 Problem(self.place(line) if line else self.source.file, text, marker)
             )
 
-    def leave_out(self, line: int, element: str, feature: str) -> None:
+    def leave_out(self, line: int, element: str, feature: str, *, vital: bool = False) -> None:
         """Note something that a model cannot represent: an error unless permissive.
 
         Parameters
         ----------
         element : "element 30-40", "node 50".
         feature : what it is, and what the model does instead: "expansion joint; taken as pipe".
+        vital : unless permissive, nothing after it means anything: `halt` raises.
         """
         if not self.permissive:
+            self._passable += not vital and len(self.problems) < MOST
             self.fault(line, f"{element}: {feature}; --permissive goes on without it")
         elif len(self.left_out) < MOST:
             self.left_out.append(LeftOut(element, feature, self._where(line)))
@@ -76,10 +79,17 @@ class Findings:
             self.notes[k] = Note(new, self.notes[k].text)
             self._noted.setdefault(id(new), []).append(k)
 
+    @property
+    def broken(self) -> bool:
+        """Tell whether there is a problem past which the file cannot be read."""
+        return len(self.problems) > self._passable
+
     def stop(self) -> None:
-        """Raise all problems, if there are any."""
+        """Raise all problems, if there are any, with what was left out before."""
         if self.problems:
-            raise DeckError(sorted(self.problems, key=_line))
+            origin = Origin(Path(self.source.file).name, "", tuple(self.left_out))
+            with telling(origin if self.left_out else None):
+                raise DeckError(sorted(self.problems, key=_line))
 
     def finish(self, model: Model, name: str, header: tuple[str, ...] = ()) -> Imported:
         """Give the result, or raise all problems.
@@ -91,7 +101,8 @@ class Findings:
         self.stop()
         file = Path(self.source.file).name
         model.origin = Origin(file, name, tuple(self.left_out), tuple(self.assumed))
-        model.check()
+        with telling(model.origin):
+            model.check()
         return Imported(model, tuple(self.notes), header)
 
     def _where(self, line: int) -> str:

@@ -74,6 +74,7 @@ class SideTable:
     tolerance: float | None = None
     mu: float = 0.0  # friction of supports
     anchors: tuple[str, ...] = ()
+    whole: bool = True  # False: it has faults, and none of it is used
 
     def values(self, said: Mapping[str, str | float | None]) -> dict[str, Any]:
         """Values of all rules that fit; a later rule wins."""

@@ -19,6 +19,7 @@ from trunnion.many.records import (
     record_path,
 )
 from trunnion.model import Model, Place
+from trunnion.origin import telling
 from trunnion.results.supports import cause_of, is_good
 
 if TYPE_CHECKING:
@@ -73,7 +74,8 @@ def solve_model(model: Model, deck: Path, settings: Settings) -> tuple[Entry, di
     import trunnion
     from trunnion.report import report_files
 
-    results = trunnion.solve(model)
+    with telling(model.origin):
+        results = trunnion.solve(model)
     also: Any = settings["also"]
     files = report_files(results, model, Path(), deck.stem, also=also)
     reports = {path.as_posix(): content for path, content in files.items()}
@@ -121,8 +123,10 @@ def entry_of(results: Results, deck: Path, files: tuple[str, ...]) -> Entry:
 
 
 def refused(deck: Path, error: DeckError | ModelError) -> Entry:
-    """Entry of a deck that is wrong: every problem is a cause."""
+    """Entry of a deck that is wrong: every problem is a cause, and so is what was left out."""
+    notes = "\n".join(getattr(error, "__notes__", ())).split("\n")
     causes = tuple(f"{_spot(problem.place)}: {problem.text}" for problem in error.problems)
+    causes += tuple(line for line in notes if line.startswith("LEFT OUT: "))
     return Entry(deck.stem, deck.name, BAD_DECK, causes=causes)
 
 

@@ -5,14 +5,6 @@ from trunnion.report.columns import section, wrapped
 from trunnion.report.encode import dump
 
 
-def origin_lines(origin: Origin) -> list[str]:
-    """Lines for the screen: source, then everything left out, then how much was assumed."""
-    lines = [f"from {origin.file}, {origin.format}"]
-    lines += [f"LEFT OUT: {entry}" for entry in origin.left_out]
-    lines += [f"assumed: {entry}" for entry in origin.assumed]
-    return lines
-
-
 def origin_text(origin: Origin | None) -> str:
     """Top of the text report; nothing for a deck."""
     if origin is None:

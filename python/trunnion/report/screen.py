@@ -13,15 +13,15 @@ import click
 from trunnion.arrays import OPEN, CaseResult, Results
 from trunnion.frozen import frozen
 from trunnion.model import Model
+from trunnion.origin import origin_lines
 from trunnion.report.columns import PAGE
 from trunnion.report.frozen import frozen_warning
 from trunnion.report.loops import cycle_lines, cycle_warnings
 from trunnion.report.modes import mode_lines, mode_warnings
-from trunnion.report.origin import origin_lines
 from trunnion.report.screen_table import case_table
 from trunnion.report.summary import Largest, largest_of
 from trunnion.report.units import ReportUnits, report_units
-from trunnion.results.supports import card_ids, card_levels, cause_of, is_good
+from trunnion.results.supports import card_ids, card_levels, cause_of, is_good, lifted_rests
 
 MOST, LOW = 2, 20  # lines of a message on a terminal; one where this has fewer than LOW
 LABEL = 15  # characters before a verdict
@@ -136,7 +136,8 @@ def _verdicts(results: Results, bad: list[str], units: ReportUnits, room: Room) 
     cases = list(results.cases.values())
     good = [case for case in cases if is_good(case)]
     entries = [_labelled("certificate", _certificate(cases, bad), room, "red" if bad else "green")]
-    for label, text in (("worst support", _worst_support(good, units)), ("open", _open(good))):
+    found = {"worst support": _worst_support(good, units), "lifted off": _lifted(good)}
+    for label, text in (found | {"open": _open(good)}).items():
         if text:
             entries.append(_labelled(label, text, room))
     return entries
@@ -190,6 +191,23 @@ def _open(cases: Sequence[CaseResult]) -> str:
     ids = card_ids(case.system.cards)
     named = " ".join(ids[i] for i in at[:NAMED]) + (" ..." if len(at) > NAMED else "")
     return f"{len(at)} of {len(ids)} supports in {case.name}: {named}"
+
+
+def _lifted(cases: Sequence[CaseResult]) -> str:
+    """Name the rests that the pipe has lifted off in every case, most of them first."""
+    lifted: dict[tuple[str, ...], list[str]] = {}
+    for case in cases:
+        if case.gathered is None and case.kind == "case":
+            ids, contacts = card_ids(case.system.cards), case.system.contacts
+            at = lifted_rests(case)
+            rests = tuple(f"{ids[contacts.card[i]]} {contacts.word[i]}" for i in at)
+            if rests:
+                lifted.setdefault(rests, []).append(case.name)
+    entries = sorted(lifted.items(), key=lambda entry: -len(entry[0]))
+    return "; ".join(
+        f"in {', '.join(names)}: {', '.join(rests[:NAMED])}{' ...' * (len(rests) > NAMED)}"
+        for rests, names in entries
+    )
 
 
 def all_warnings(results: Results, units: ReportUnits) -> list[str]:

@@ -9,7 +9,7 @@ from trunnion.arrays import OPEN, SLIP, CaseResult
 from trunnion.frozen import frozen
 from trunnion.report.summary import Largest, largest_of
 from trunnion.report.units import ReportUnits
-from trunnion.results.supports import card_levels, is_good
+from trunnion.results.supports import card_levels, is_good, lifted_rests
 
 LUXURY = 6  # rank from which a column goes before any name is cut
 LEAST = 6  # characters that a name keeps where room is short
@@ -72,8 +72,8 @@ def _fields(units: ReportUnits) -> list[Field]:
         Field("AT", lambda _, m: m.node or "", rank=5),
         Field(f"LOAD [{force.unit}]", lambda _, m: amount("force", m.load), True, 1),
         Field("ON RESTRAINT", lambda _, m: m.support or "", rank=2),
-        Field("OPEN", lambda c, _: _count(c, OPEN), True, 7),
-        Field("SLIP", lambda c, _: _count(c, SLIP), True, 6),
+        Field("OPEN", lambda c, _: _count(c, OPEN), True, 6),
+        Field("SLIP", lambda c, _: _count(c, SLIP), True, 7),
     ]
 
 
@@ -82,10 +82,16 @@ def _worst(case: CaseResult, _: Largest) -> str:
 
 
 def _count(case: CaseResult, level: int) -> str:
-    """Count the supports in one state; nothing where there are no states."""
+    """Count the supports in one state; nothing where there are no states.
+
+    A support whose rest has lifted off is open, whatever its guides do.
+    """
     if not is_good(case) or case.gathered is not None:
         return ""
-    return str(int((card_levels(case) == level).sum()))
+    counted = card_levels(case) == level
+    if level == OPEN:
+        counted[case.system.contacts.card[lifted_rests(case)]] = True
+    return str(int(counted.sum()))
 
 
 def _narrow(fields: Sequence[Field], wide: dict[str, int], excess: int) -> int:

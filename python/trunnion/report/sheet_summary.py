@@ -4,7 +4,7 @@ import numpy as np
 
 from trunnion.arrays import CaseResult, Results
 from trunnion.model import Model
-from trunnion.report.origin import origin_lines
+from trunnion.origin import origin_lines
 from trunnion.report.screen import all_warnings
 from trunnion.report.sheets import Cell, Column, Sheet, amounts
 from trunnion.report.summary import Largest, largest_of

@@ -23,6 +23,7 @@ from trunnion.frozen import frozen
 
 STATES = ("open", "engaged", "stick", "slip", "free", "locked")
 FREE, LOCKED = 4, 5  # of snubbers
+STEEP = 0.7  # cosine to the vertical of what is a rest, not a stop
 ALIKE = 1e-9  # loads that differ by less are the same: the first case is named
 
 
@@ -112,6 +113,21 @@ def card_states(case: CaseResult) -> list[str | None]:
     if case.gathered is not None:
         return [None] * len(case.system.cards)
     return [STATES[i] for i in card_levels(case)]
+
+
+def lifted_rests(case: CaseResult) -> list[int]:
+    """Contacts that are rests which the pipe has lifted off: upward, one-way and open.
+
+    Their card may still guide and slide, so that its own state says nothing of it.
+    """
+    s, state = case.system, solved(case)
+    rise = s.contacts.normal[:, 0] @ s.up
+    below, above = s.contacts.gap.T
+    under, over = np.where(rise > 0.0, below, above), np.where(rise > 0.0, above, below)
+    rests = (np.abs(rise) > STEEP) & ~s.contacts.rotational & (s.contacts.dim == 1)
+    rests &= np.isfinite(under) & np.isinf(over)
+    found: list[int] = np.flatnonzero(rests & (state.side == OPEN)).tolist()
+    return found
 
 
 def contact_levels(system: System, state: State) -> I4:

@@ -4,24 +4,28 @@ blocks (text) -> parts (components in metres) -> shapes (legs) -> joints and net
 -> assemble (model).  What a PCF does not hold comes from a side table (formats.sidetable).
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from pathlib import Path
 
+from trunnion.errors import DeckError
 from trunnion.formats.findings import Findings
 from trunnion.formats.imported import Imported
 from trunnion.formats.pcf import openends
-from trunnion.formats.pcf.assemble import assemble
-from trunnion.formats.pcf.attach import Attached, attach_olets, attach_supports
+from trunnion.formats.pcf.assemble import assemble, body_weight
+from trunnion.formats.pcf.attach import Attached, attach_masses, attach_olets, attach_supports
 from trunnion.formats.pcf.blocks import blocks
 from trunnion.formats.pcf.bores import Bores, decide
 from trunnion.formats.pcf.network import MAX_PARTS, Network, Places, build
 from trunnion.formats.pcf.parts import Line, Part, read_line
+from trunnion.formats.pcf.points import Point
 from trunnion.formats.pcf.properties import Resolver
 from trunnion.formats.pcf.shapes import Form, form_of
 from trunnion.formats.pcf.supports import add_anchor, add_anchors, add_supports, report_ends
 from trunnion.formats.sidetable import SideTable, read_table
 from trunnion.formats.source import Source
-from trunnion.model import Model, Settings, Units
+from trunnion.model import Model, Place, Settings, Units
 
+MOST_NAMED = 8  # separate parts of a file that are named
 TOLERANCE = 1e-3  # largest distance of two ends that are joined, unless said otherwise [m]
 
 
@@ -33,14 +37,14 @@ def read(source: Source, findings: Findings) -> Imported:
     DeckError : with every problem of the file and of the side table.
     """
     options = findings.options
-    table = SideTable() if options.table is None else read_table(options.table)
+    table = _table(options.table, findings)
     tolerance = options.tolerance or table.tolerance or TOLERANCE
     line = read_line(blocks(source, findings), findings)
     if not any(p.shape not in ("support", "anchor", "weld") for p in line.parts):
         findings.fault(1, "there is no component in the file")
     if len(line.parts) > MAX_PARTS:
         findings.fault(1, f"more than {MAX_PARTS} components")
-    findings.stop()
+        findings.stop()
     bores = decide(_bores(line), line.bore_unit)
     model = Model(
         title=_title(line, source),
@@ -49,15 +53,18 @@ def read(source: Source, findings: Findings) -> Imported:
     )
     resolver = Resolver(model, line, bores, table, findings)
     parts, supports, anchors = _sorted_out(line, findings)
+    _halt(resolver, parts, findings)
     forms = [f for f in (form_of(p, tolerance, findings) for p in parts) if f is not None]
-    findings.stop()
+    _halt(resolver, parts, findings)
     forms, masses = _without_length(forms, tolerance, findings)
     net = build(forms, tolerance, findings)
     attached = Attached()
     openends.refuse_overlaps(net, tolerance, findings)
-    findings.stop()
+    _halt(resolver, parts, findings)
     olets = [(i, form) for i, form in enumerate(forms) if form.run is not None]
     attach_olets(net, olets, tolerance, resolver.outside, attached, findings)
+    weights = attach_masses(net, masses, tolerance, attached, findings)
+    openends.mark_cuts(net, _missing(line, parts))
     openends.join_to_surface(net, tolerance, resolver.outside, findings)
     attach_supports(net, supports, tolerance, resolver.outside, attached, findings)
     openends.report_gaps(net, resolver.outside, findings)
@@ -66,8 +73,8 @@ def read(source: Source, findings: Findings) -> Imported:
     circles = _circles(net, line, tolerance)
     first = _first(net, circles, attached)
     places = Places(net)
-    weights = [(p, places.node(p.ends[0].xyz, tolerance)) for p in masses]
     made = assemble(model, net, resolver, attached, circles, weights, first, findings)
+    _report_separate(model, findings)
     add_supports(made, attached.supports, table, findings)
     for part in anchors:
         point = part.at or part.ends[0]
@@ -80,6 +87,53 @@ def read(source: Source, findings: Findings) -> Imported:
     return findings.finish(
         model, "PCF (Isogen piping component file)", _header(line, net, tolerance)
     )
+
+
+def _table(path: Path | None, findings: Findings) -> SideTable:
+    """Read the side table; its problems are told together with those of the file."""
+    try:
+        return SideTable() if path is None else read_table(path)
+    except DeckError as error:
+        findings.problems += error.problems
+        return SideTable(whole=False)
+
+
+def _halt(resolver: Resolver, parts: Sequence[Part], findings: Findings) -> None:
+    """Where the file cannot be read on, raise all problems, what the side table lacks too."""
+    if not findings.broken:
+        return
+    for part in parts if resolver.table.whole else ():
+        for bore in dict.fromkeys(point.bore for point in part.ports if point.bore):
+            resolver.properties(part, bore)
+        body_weight(part, resolver, findings)
+    findings.stop()
+
+
+def _missing(line: Line, parts: Sequence[Part]) -> Iterator[tuple[str, Point]]:
+    """Points at which the line goes on in something that the model lacks, or is closed."""
+    for name, point in line.gone:
+        yield f"{name} is left out", point
+    for part in parts:
+        for point in part.branches if part.shape == "teed" else ():
+            yield f"the branch of {part.name} is left out", point
+    for keyword, point, _ in line.ends:
+        if keyword == "END-POSITION-CLOSED":
+            yield keyword, point
+
+
+def _report_separate(model: Model, findings: Findings) -> None:
+    """Name the parts of the model that do not hang together."""
+    starts = {node.label for node in model.nodes}
+    if len(starts) < 2:
+        return
+    lines: dict[str, int] = {}
+    for pipe in model.pipes:
+        if pipe.start in starts and isinstance(pipe.place, Place):
+            lines.setdefault(pipe.start, pipe.place.line)
+    said = [f"from node {label} (line {number})" for label, number in lines.items()]
+    more = f" and {len(said) - MOST_NAMED} more" if len(said) > MOST_NAMED else ""
+    text = f"{len(starts)} separate parts, not joined to each other: "
+    findings.assume(text + ", ".join(said[:MOST_NAMED]) + more)
 
 
 def _title(line: Line, source: Source) -> str:
@@ -127,9 +181,9 @@ def _without_length(
         part = form.part
         if form.legs or form.run is not None or part.shape in ("tee", "ways"):
             kept.append(form)
-        elif part.shape in ("rigid", "closed", "angle"):
+        elif part.shape in ("rigid", "closed", "angle", "fitting"):
             masses.append(part)
-        elif part.shape == "pipe":
+        elif part.shape in ("pipe", "reducer"):
             findings.assume(f"{part.name}: no length; dropped", part.line)
     return kept, masses
 

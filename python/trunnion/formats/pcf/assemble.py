@@ -91,11 +91,14 @@ def assemble(
             model.bends.append(bend)
             findings.note(bend, _says(form.part))
     for part, node in masses:
-        weight = _body_weight(part, resolver, findings)
+        weight = body_weight(part, resolver, findings)
         if weight > 0.0 and node in line.labels:
             mass = Mass(line.labels[node], weight / G, findings.place(part.line))
             model.masses.append(mass)
             findings.note(mass, f"{_says(part)}: no length, its weight at the node")
+        elif part.shape == "closed" and node in line.labels:
+            text = f"closes node {line.labels[node]}; without length or weight it is nothing else"
+            findings.assume(f"{part.name}: {text}", part.line)
     _index(line, way, gone)
     return line
 
@@ -139,7 +142,7 @@ def _add_pipes(
         part = run.part
         body = run.kind == "rigid" and part.shape in (*_BODIES, "gasket", "fitting")
         if body and part.line not in weights:
-            weights[part.line] = _body_weight(part, resolver, findings)
+            weights[part.line] = body_weight(part, resolver, findings)
         stiff = run.kind == "inside" or (body and not _weighs_as_pipe(part, resolver))
         section, reducer = what.section, None
         if run.kind == "reducer":
@@ -193,7 +196,7 @@ def _weighs_as_pipe(part: Part, resolver: Resolver) -> bool:
     return light and resolver.weight(part) is None
 
 
-def _body_weight(part: Part, resolver: Resolver, findings: Findings) -> float:
+def body_weight(part: Part, resolver: Resolver, findings: Findings) -> float:
     """Weight [N] of a stiff body; one that nothing gives is an error, for it would count as 0."""
     weight = resolver.weight(part)
     if weight is not None:

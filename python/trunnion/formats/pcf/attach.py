@@ -81,6 +81,33 @@ def _branch(
     net.runs.append(Run(form.part, "pipe", surface, branch, 1.0, (bore, bore)))
 
 
+def attach_masses(
+    net: Network, parts: list[Part], tolerance: float, attached: Attached, findings: Findings
+) -> list[tuple[Part, int]]:
+    """Find the node of each component without length; a cap or blind flange closes its end."""
+    places = Places(net)
+    at = net.at()
+    hits: list[Hit] = []
+    placed: list[Part] = []
+    for part in parts:
+        point = part.ends[0].xyz
+        hit = places.on_runs(point, tolerance, tolerance, _ALL)
+        if hit.node >= 0 and hit.node not in at:  # made one with another
+            node = min(at, key=lambda n: size(sub(net.xyz[n], point)), default=-1)
+            far = size(sub(net.xyz[node], point)) if node >= 0 else inf
+            hit = Hit(node if far <= tolerance else -1, -1, 0.0, far)
+        if hit.node < 0 and hit.run < 0:
+            findings.leave_out(part.line, part.name, "no length, and no component ends there")
+            continue
+        hits.append(_off_bends(net, hit, point, attached))
+        placed.append(part)
+    found = list(zip(placed, split(net, hits, tolerance), strict=True))
+    for part, node in found:
+        if part.shape == "closed" and net.open_ends.pop(node, None) is not None:
+            net.closed.add(node)
+    return found
+
+
 def attach_supports(
     net: Network,
     parts: list[Part],

@@ -39,6 +39,7 @@ class Network:
     bends: dict[int, Form] = field(default_factory=dict)
     open_ends: dict[int, Part] = field(default_factory=dict)  # node: the only component there
     closed: set[int] = field(default_factory=set)
+    cuts: dict[int, str] = field(default_factory=dict)  # open end that is no true end: why
     joints: int = 0  # nodes below are joints of ports
     port_node: dict[tuple[int, int], int] = field(default_factory=dict)  # (form, port): node
     widest: float = 0.0
@@ -107,16 +108,18 @@ def _add(net: Network, i: int, form: Form) -> None:
 
 
 def _find_open_ends(net: Network, forms: Sequence[Form]) -> None:
-    """Note joints with a single component: those that want a mate, and caps."""
+    """Note joints with a single component: those that want a mate, and caps at either end."""
     users: dict[int, set[int]] = {}
     for (i, _), node in net.port_node.items():
         users.setdefault(node, set()).add(i)
+    mated = {i for (i, _), node in net.port_node.items() if len(users[node]) > 1}
     for (i, j), node in net.port_node.items():
         if len(users[node]) == 1:
-            if j in forms[i].open_ends:
-                net.open_ends[node] = forms[i].part
-            elif forms[i].part.shape == "closed":
+            closes = forms[i].part.shape == "closed"
+            if closes and (i in mated or j not in forms[i].open_ends):
                 net.closed.add(node)
+            elif j in forms[i].open_ends:
+                net.open_ends[node] = forms[i].part
 
 
 @frozen

@@ -1,12 +1,13 @@
 """Ends without a mate: gaps in the line, branches that end on a pipe, true ends."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 
 import numpy as np
 
 from trunnion.formats.findings import Findings
 from trunnion.formats.pcf.network import Hit, Network, Places, Run, overlaps, split
 from trunnion.formats.pcf.parts import Part
+from trunnion.formats.pcf.points import Point
 from trunnion.system.vectors import dot, size, sub, unit
 
 GAP = 0.1  # [m]; or two bores
@@ -77,9 +78,25 @@ def join_to_surface(net: Network, tolerance: float, outside: Outside, findings: 
         findings.assume(f"{part.name}: {text}", part.line)
 
 
+def mark_cuts(net: Network, points: Iterable[tuple[str, Point]]) -> None:
+    """Note which open ends are none of the line: something that the model lacks stands there.
+
+    Parameters
+    ----------
+    points : what stands there, and where.
+    """
+    nodes = sorted(net.open_ends)
+    xyz = np.array([net.xyz[n] for n in nodes]).reshape(-1, 3)
+    for name, point in points if nodes else ():
+        far = np.linalg.norm(xyz - np.array(point.xyz), axis=1)
+        best = int(far.argmin())
+        if far[best] <= NEAR:
+            net.cuts.setdefault(nodes[best], name)
+
+
 def report_gaps(net: Network, outside: Outside, findings: Findings) -> None:
     """Report pairs of open ends that are near each other: a gap in the line, with both ends."""
-    nodes = sorted(net.open_ends)
+    nodes = sorted(n for n in net.open_ends if n not in net.cuts)
     if len(nodes) < 2:
         return
     xyz = np.array([net.xyz[n] for n in nodes])
@@ -92,13 +109,15 @@ def report_gaps(net: Network, outside: Outside, findings: Findings) -> None:
         far = np.linalg.norm(xyz - xyz[i], axis=1)
         for j in np.argsort(far).tolist():
             other = net.open_ends[nodes[j]]
-            if j == i or other is part or nodes[j] in told:
+            if j == i or other is part:
                 continue
             if far[j] > max(GAP, 2.0 * outside(part)):
                 break
             if far[j] > NEAR and not _facing(net, node, nodes[j], at):
                 continue  # two ends of their own, each of which is reported as free
             told |= {node, nodes[j]}
+            for n in (node, nodes[j]):
+                net.cuts.setdefault(n, f"gap of {1000 * far[j]:.2f} mm in the line")
             text = (
                 f"gap of {1000 * far[j]:.2f} mm in the line: {part.name} ends at "
                 f"{where(net, node)}, {other.name} at {where(net, nodes[j])}; not joined "

@@ -75,6 +75,7 @@ class Line:
     weight: float  # kg of one unit of weight
     pipelines: tuple[str, ...]
     skipped: dict[str, int]  # symbols that are no structure, and how many
+    gone: tuple[tuple[str, Point], ...] = ()  # ends of components that are left out, by name
 
 
 class _Units:
@@ -101,7 +102,7 @@ def _unit(said: Mapping[str, Block], name: str, words: Mapping[str, T], findings
     first = next(iter(words.values()))  # MM
     block = said.get(name)
     if block is None:
-        findings.leave_out(1, "header", f"{name} is missing; taken as MM")
+        findings.leave_out(1, "header", f"{name} is missing; taken as MM", vital=True)
         return first
     word = block.value.upper().split(" ")[0]
     if word not in words:
@@ -125,6 +126,7 @@ def read_line(found: list[Block], findings: Findings) -> Line:
     circles: list[tuple[str, Point]] = []
     pipelines: list[str] = []
     skipped: dict[str, int] = {}
+    gone: list[tuple[str, Point]] = []
     in_materials = False
     for block in found:
         word = block.keyword
@@ -151,6 +153,7 @@ def read_line(found: list[Block], findings: Findings) -> Line:
         else:
             text = f"{word} is no component of a PCF that is known here"
             findings.leave_out(block.line, f"line {block.line}", text)
+            gone += _ends_of(block, units.length)
     return Line(
         tuple(parts),
         tuple(ends),
@@ -160,7 +163,15 @@ def read_line(found: list[Block], findings: Findings) -> Line:
         units.weight,
         tuple(pipelines),
         skipped,
+        tuple(gone),
     )
+
+
+def _ends_of(block: Block, unit: float) -> list[tuple[str, Point]]:
+    """Points at which a component that is left out was joined, with its name."""
+    points = [point_of(a, unit) for a in block.attributes if a.name in ("END-POINT", *_BRANCHES)]
+    name = f"{block.keyword} of line {block.line}"
+    return [(name, point) for point in points if isinstance(point, Point)]
 
 
 def _part(block: Block, unit: float, findings: Findings) -> Part:

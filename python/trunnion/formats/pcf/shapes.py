@@ -65,10 +65,10 @@ def form_of(part: Part, tolerance: float, findings: Findings) -> Form | None:
 
 
 def _straight(part: Part, shape: str, tolerance: float, findings: Findings) -> Form | None:
-    """Two ends; caps may have one and a centre; angle valves turn at their centre."""
+    """Two ends; caps may have one and a centre or CO-ORDS; angle valves turn at their centre."""
     ends = list(part.ends)
-    if shape == "closed" and len(ends) == 1 and part.centre is not None:
-        ends.append(part.centre)
+    if shape == "closed" and len(ends) == 1:
+        ends += [point for point in (part.centre, part.at) if point is not None][:1]
     if shape == "closed" and len(ends) == 1:
         return Form(part, tuple(ends), (), open_ends=(0,))
     if len(ends) == 3 and shape in ("rigid", "fitting", "gasket"):

@@ -106,14 +106,15 @@ def _name(part: Part) -> str | None:
     return clean or None
 
 
-def add_anchor(line: Line, node: int, why: str, findings: Findings) -> None:
-    """Anchor a node, once."""
+def add_anchor(line: Line, node: int, why: str, findings: Findings) -> bool:
+    """Anchor a node, once; tell whether it was not yet."""
     label = line.labels.get(node)
     if label is None or any(s.kind == "anchor" and s.node == label for s in line.model.supports):
-        return
+        return False
     anchor = Support(label, "anchor")
     line.model.supports.append(anchor)
     findings.note(anchor, why)
+    return True
 
 
 def add_anchors(line: Line, asked: Sequence[str], unit: float, findings: Findings) -> None:
@@ -122,8 +123,7 @@ def add_anchors(line: Line, asked: Sequence[str], unit: float, findings: Finding
     for text in asked:
         where_ = _coordinates(text, unit)
         if text.strip().lower() == OPEN_ENDS:
-            for node in line.net.open_ends:
-                add_anchor(line, node, "anchored: open end (--anchor open-ends)", findings)
+            _anchor_open_ends(line, findings)
         elif where_ is not None:
             node = Places(line.net).node(where_, 0.01)
             if node < 0 or node not in line.labels:
@@ -137,6 +137,16 @@ def add_anchors(line: Line, asked: Sequence[str], unit: float, findings: Finding
             findings.fault(
                 0, f"--anchor {text}: there is no such node; open ends are {ends or 'none'}"
             )
+
+
+def _anchor_open_ends(line: Line, findings: Findings) -> None:
+    """Anchor the true ends of the line and list each; those at a cut are left free."""
+    for node, part in line.net.open_ends.items():
+        if node in line.net.cuts or part.shape == "closed":
+            continue
+        if add_anchor(line, node, "anchored: open end (--anchor open-ends)", findings):
+            text = f"open end of {part.name} at {where(line.net, node)} anchored (open-ends)"
+            findings.assume(f"node {line.labels[node]}: {text}", part.line)
 
 
 def _coordinates(text: str, unit: float) -> Vec | None:
@@ -170,5 +180,9 @@ def report_ends(
     for node, part in line.net.open_ends.items():
         label = line.labels.get(node)
         if label is not None and label not in anchored and label not in held:
-            text = f"node {label}: open end of {part.name} at {where(line.net, node)} is free"
-            findings.assume(text, part.line)
+            cut = line.net.cuts.get(node)
+            if cut is None and part.shape == "closed":
+                cut = "it closes nothing"
+            kind = "open end" if cut is None else "end"
+            text = f"node {label}: {kind} of {part.name} at {where(line.net, node)} is free"
+            findings.assume(text + (f"; not for open-ends: {cut}" if cut else ""), part.line)

@@ -14,6 +14,10 @@ const DATA = JSON.parse(document.getElementById("data").textContent);
   const nodes = floats(scene.nodes), first = scene.first, n = radius.length;
   const up = scene.up, unit = scene.units, n_node = scene.labels.length;
   const SIDES = n > 12000 ? 6 : n > 4000 ? 8 : 14;
+  const KIND = { anchor: "#1b2430", displacement: "#6b7686", rest: "#2f4b7c", "hold-down": "#c05a00",
+    guide: "#b8860b", "limit stop": "#7a3ea1", spring: "#5a7d1a", hanger: "#0b7a75",
+    snubber: "#8b4513" };
+  const PIXELS = 2;  /* of the canvas, for one of the page; plotly draws its letters in these */
   const STATE = { open: "#9aa1ab", engaged: "#2f6db5", stick: "#2a8f55", slip: "#e07b00",
     free: "#b9a3d0", locked: "#6a3d9a", none: "#44546a" };
   const FIELDS = { move: ["displacement", "movement"], axial: ["axial force", "force"],
@@ -56,6 +60,10 @@ const DATA = JSON.parse(document.getElementById("data").textContent);
   });
   const value = (c, key, i) => key === "move"
     ? Math.hypot(c.move[3 * i], c.move[3 * i + 1], c.move[3 * i + 2]) : c[key][i];
+
+  /* the picture ends where the window does */
+  stage.style.setProperty("--above", Math.ceil(stage.getBoundingClientRect().top +
+    window.scrollY) + 14 + "px");
 
   /* one mesh of all pipes */
   const rings = [], faces = { i: [], j: [], k: [] };
@@ -149,20 +157,35 @@ const DATA = JSON.parse(document.getElementById("data").textContent);
       m.i.push(base + i); m.j.push(base + j); m.k.push(base + k); m.facecolor.push(colour);
     }
   }
-  function coil(line, from, axis, length, wide) {
-    const side = aside(axis), steps = 9;
-    const put = (p) => { line.x.push(p[0]); line.y.push(p[1]); line.z.push(p[2]); };
-    put(from);
+  function stroke(line, points, colour) {
+    for (const p of [...points, [null, null, null]]) {
+      line.x.push(p[0]); line.y.push(p[1]); line.z.push(p[2]); line.color.push(colour);
+    }
+  }
+  function coil(line, from, axis, length, wide, colour) {
+    const side = aside(axis), steps = 9, points = [from];
     for (let a = 1; a < steps; a++) {
       const foot = add(from, axis, length * a / steps);
-      put(add(foot, side, a % 2 ? wide : -wide));
+      points.push(add(foot, side, a % 2 ? wide : -wide));
     }
-    put(add(from, axis, length));
-    line.x.push(null); line.y.push(null); line.z.push(null);
+    stroke(line, [...points, add(from, axis, length)], colour);
   }
+  function kind(card, hold) {
+    if (card.kind in KIND && card.kind !== "spring") return card.kind;
+    if (hold.spring) return "spring";
+    if (hold.word === "GUIDE") return "guide";
+    const normal = hold.normals[0], upward = Math.sign(dot(normal, up));
+    if (hold.word === "LIMIT") return "limit stop";
+    if (Math.abs(dot(normal, up)) > 0.85)
+      return hold.sides.includes(-upward) ? "rest" : "hold-down";
+    return Math.abs(dot(normal, card.axis)) > 0.85 ? "limit stop" : "guide";
+  }
+  const found_kinds = new Set(scene.cards.flatMap((card) => card.holds.length
+    ? card.holds.map((hold) => kind(card, hold)) : card.kind in KIND ? [card.kind] : []));
   const frame = (axis) => { const s = aside(axis); return [axis, s, cross(axis, s)]; };
 
-  function support(m, line, card, where, colour) {
+  function support(m, line, card, where, coloured) {
+    let colour = coloured(card.kind);
     const r = Math.max(card.radius, thin), g = glyph;
     if (card.kind === "anchor" || card.kind === "displacement") {
       const axes = norm(card.axis) > 0.5 ? frame(card.axis) : frame([1, 0, 0]);
@@ -171,16 +194,16 @@ const DATA = JSON.parse(document.getElementById("data").textContent);
     }
     if (card.kind === "hanger") {
       const top = add(where, up, r);
-      coil(line, top, up, 2.6 * g, 0.4 * g);
+      coil(line, top, up, 2.6 * g, 0.4 * g, colour);
       box(m, add(top, up, 2.7 * g), frame(up), [0.12 * g, 0.8 * g, 0.8 * g], colour);
       return;
     }
     for (const hold of card.holds) for (const normal of hold.normals) {
+      colour = coloured(kind(card, hold));
       if (card.kind === "snubber") {
         const axes = frame(normal);
         const end = add(where, normal, r + 2.4 * g);
-        line.x.push(where[0], end[0], null); line.y.push(where[1], end[1], null);
-        line.z.push(where[2], end[2], null);
+        stroke(line, [where, end], colour);
         box(m, add(where, normal, r + 1.4 * g), axes, [0.7 * g, 0.3 * g, 0.3 * g], colour);
         box(m, end, axes, [0.12 * g, 0.6 * g, 0.6 * g], colour);
         continue;
@@ -190,15 +213,16 @@ const DATA = JSON.parse(document.getElementById("data").textContent);
       const off = lengthwise ? add(where, up, -r - 0.35 * g) : where;
       for (const s of sides) {
         const out = scaled(normal, s);
-        if (hold.spring) coil(line, add(where, out, r), out, 1.8 * g, 0.35 * g);
-        else if (lengthwise) cone(m, add(off, out, 0.1 * g), scaled(out, -1), 0.9 * g, 0.3 * g, colour);
+        if (hold.spring) coil(line, add(where, out, r), out, 1.8 * g, 0.35 * g, colour);
+        else if (lengthwise)
+          cone(m, add(off, out, 0.1 * g), scaled(out, -1), 0.9 * g, 0.3 * g, colour);
         else cone(m, add(where, out, r), scaled(out, -1), g, 0.5 * g, colour);
       }
     }
   }
 
   function furniture(c, s, options) {
-    const m = solids(), line = { x: [], y: [], z: [] }, traces = [];
+    const m = solids(), line = { x: [], y: [], z: [], color: [] }, traces = [];
     const arrows = solids(), shaft = { x: [], y: [], z: [] };
     let most = 0;
     if (c) for (let i = 0; i < scene.cards.length; i++)
@@ -207,10 +231,10 @@ const DATA = JSON.parse(document.getElementById("data").textContent);
       const u = c ? place2(c.u, card.node, s) : [0, 0, 0];
       const where = add(place(nodes, card.node), u);
       const state = c && c.state[i] >= 0 ? scene.states[c.state[i]] : "none";
-      const colour = options.colour === "state" ? STATE[state] : STATE.none;
+      const coloured = (kind) => options.colour === "state" ? STATE[state] : KIND[kind];
       m.say = arrows.say = "<b>" + escape(card.name) + "</b>" + (c ? "<br>" + (state === "none"
         ? "" : state + "<br>") + load(c, i) : "");
-      if (options.supports) support(m, line, card, where, colour);
+      if (options.supports) support(m, line, card, where, coloured);
       if (!c || !options.arrows || most === 0) return;
       const f = [c.load[6 * i], c.load[6 * i + 1], c.load[6 * i + 2]], amount = norm(f);
       if (amount < 1e-3 * most) return;
@@ -225,8 +249,9 @@ const DATA = JSON.parse(document.getElementById("data").textContent);
     const solid = { type: "mesh3d", hoverinfo: "text", flatshading: true,
       lighting: { ambient: 0.88, diffuse: 0.3, specular: 0.02 } };
     if (m.i.length) traces.push({ ...solid, ...m });
-    if (line.x.length) traces.push({ type: "scatter3d", mode: "lines", ...line,
-      hoverinfo: "skip", showlegend: false, line: { color: STATE.none, width: 3 } });
+    if (line.x.length) traces.push({ type: "scatter3d", mode: "lines",
+      x: line.x, y: line.y, z: line.z, hoverinfo: "skip", showlegend: false,
+      line: { color: line.color, width: 3 } });
     if (arrows.i.length) traces.push({ ...solid, ...arrows }, { type: "scatter3d", mode: "lines",
       ...shaft, hoverinfo: "skip", showlegend: false, line: { color: "#c2185b", width: 4 } });
     return traces;
@@ -290,7 +315,7 @@ const DATA = JSON.parse(document.getElementById("data").textContent);
       found.push({ type: "scatter3d", mode: "text", x: x.map((v) => v + lift * up[0]),
         y: y.map((v) => v + lift * up[1]), z: z.map((v) => v + lift * up[2]),
         text: scene.labels.map(escape), hoverinfo: "skip", showlegend: false,
-        textfont: { size: 11, color: "#1b2430" } });
+        textfont: { size: 12 * PIXELS, color: "#1b2430" } });
     }
     return found;
   }
@@ -318,7 +343,7 @@ const DATA = JSON.parse(document.getElementById("data").textContent);
       }
     });
     return { type: "scatter3d", mode: "lines+text", ...found, hoverinfo: "skip",
-      showlegend: false, line: { color, width: 4 }, textfont: { size: 12, color: "#1b2430" } };
+      showlegend: false, line: { color, width: 4 }, textfont: { size: 12 * PIXELS, color: "#1b2430" } };
   }
 
   /* controls */
@@ -391,7 +416,8 @@ const DATA = JSON.parse(document.getElementById("data").textContent);
     if (key === "state" && c) for (const state of new Set(c.state))
       put(state < 0 ? STATE.none : STATE[scene.states[state]],
         state < 0 ? "no state (combination)" : scene.states[state]);
-    else put(STATE.none, "support");
+    else for (const kind in KIND) if (get("supports").checked && found_kinds.has(kind))
+      put(KIND[kind], kind === "displacement" ? "imposed displacement" : kind);
     if (get("arrows").checked) put("#c2185b", "load on the restraint");
   }
   function draw() {
@@ -410,7 +436,7 @@ const DATA = JSON.parse(document.getElementById("data").textContent);
     get("caption").textContent = c ? c.name + " = " + c.text + ": " +
       colour.options[colour.selectedIndex].text + "; movements \u00d7 " + digits(s) : "";
     const config = { displaylogo: false, responsive: true, displayModeBar: false,
-      scrollZoom: true, plotGlPixelRatio: 2 };
+      scrollZoom: true, plotGlPixelRatio: PIXELS };
     return Plotly.react(stage, traces, layout, config).then(() => { stage.dataset.drawn = c
       ? c.name + " " + key : "model"; });
   }
@@ -420,6 +446,27 @@ const DATA = JSON.parse(document.getElementById("data").textContent);
   get("controls").addEventListener("submit", (event) => event.preventDefault());
   get("home").addEventListener("click", () => {
     Plotly.relayout(stage, { "scene.camera": camera() });
+  });
+  /* a canvas of WebGL prints empty: a plain one takes its pixels and place, as wide as the paper */
+  const paper = document.createElement("canvas"), WIDE = 1258, HIGH = 600;
+  window.addEventListener("beforeprint", () => {
+    const plot = stage._fullLayout?.scene?._scene?.glplot;
+    if (!plot) return;
+    const { clientWidth: w, clientHeight: h } = stage;
+    const sizes = { wide: w + "px", high: h + "px", fit: Math.min(WIDE / w, HIGH / h) };
+    for (const name in sizes) stage.style.setProperty("--" + name, sizes[name]);
+    plot.redraw();  /* its pixels last until this task ends */
+    paper.width = plot.canvas.width;
+    paper.height = plot.canvas.height;
+    paper.getContext("2d").drawImage(plot.canvas, 0, 0);
+    paper.style.cssText = "position: absolute; left: 0; top: 0; width: 100%; height: 100%";
+    plot.canvas.after(paper);
+    plot.canvas.style.visibility = "hidden";
+  });
+  window.addEventListener("afterprint", () => {
+    if (!paper.parentNode) return;
+    paper.previousSibling.style.visibility = "";
+    paper.remove();
   });
   draw();
 })();

@@ -6,9 +6,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trunnion.arrays import F8, OPEN, CaseResult, Results, System
+from trunnion.certificate import LIMIT
 from trunnion.frozen import frozen
+from trunnion.report.balance import Balance, balance
 from trunnion.report.units import ReportUnits
-from trunnion.results.supports import STATES
+from trunnion.results.supports import STATES, cause_of, is_good
 
 SUPPORTS = 40  # told of one case, the most restless
 ROWS = 200  # iterations of one support
@@ -76,10 +78,8 @@ def _story(case: CaseResult, units: ReportUnits) -> dict[str, object]:
         "case": case.name,
         "note": note,
         "force": units.force.unit,
-        "passes": [
-            {key: _plain(record.get(key)) for key in ("what", "residual", "step", "n_changed")}
-            for record in case.history
-        ],
+        **_verdict(case),
+        **_passes(case, balance(case), units),
         "supports": [
             {
                 "name": case.system.cards[i].name,
@@ -88,6 +88,40 @@ def _story(case: CaseResult, units: ReportUnits) -> dict[str, object]:
                 "rows": _rows(found, i, units),
             }
             for i in restless[:SUPPORTS]
+        ],
+    }
+
+
+def _verdict(case: CaseResult) -> dict[str, object]:
+    """Say whether the case converged: the worst item of its certificate and what is allowed."""
+    good, found = is_good(case), case.certificate
+    text = f"NOT CONVERGED: {cause_of(case)}"
+    if good and found is not None:
+        text = f"Converged and certified: worst item {found.worst:.1e} ({found.where}), "
+        text += f"allowed {LIMIT:.1e}."
+    worst = None if found is None else _plain(found.worst)
+    return {"good": good, "verdict": text, "worst": worst, "limit": LIMIT}
+
+
+def _passes(case: CaseResult, found: Balance, units: ReportUnits) -> dict[str, object]:
+    """Give the chart of the iterations: relative numbers, and relative to what."""
+    kinds = (("out of balance", units.force, found.force), ("change", units.movement, found.length))
+    used = [kinds[int(k)] for k in dict.fromkeys(found.by_length.tolist())]
+    said = []
+    for raw, by_length in zip(found.raw.tolist(), found.by_length.tolist(), strict=True):
+        q = kinds[int(by_length)][1]
+        said.append(f"{raw * q.factor:.2e} {q.unit}")
+    return {
+        "measured": " or ".join(name for name, _, _ in used),
+        "axis": "<br>".join(f"{name} / {one * q.factor:.3g} {q.unit}" for name, q, one in used),
+        "passes": [
+            {
+                "what": record.get("what"),
+                "residual": _plain(value),
+                "said": text,
+                "n_changed": record.get("n_changed"),
+            }
+            for record, value, text in zip(case.history, found.value.tolist(), said, strict=True)
         ],
     }
 

@@ -93,7 +93,7 @@
           if (number(c) && cell !== null) td.dataset.value = cell;
           else if (c.head === "STATE" || c.head === "STATUS" || c.head === "VERDICT")
             td.className = "s-" + text.split(/[ ,]/)[0];
-          else if (text.length > 60) td.className = "long";
+          else if (text.length > 60 || c.head === "CAUSE") td.className = "long";
           row.append(td);
         });
         part.append(row);
@@ -146,27 +146,38 @@
   const told = document.getElementById("stories");
   for (const story of DATA.stories) {
     told.append(make("h3", story.case + ": " + story.passes.length + " iterations"),
-      make("p", story.note + ".", "note"));
+      make("p", story.note + ".", "note"),
+      make("p", story.verdict, "verdict " + (story.good ? "good" : "bad")));
     const residuals = story.passes.map((p) => p.residual);
     if (residuals.filter((r) => r > 0).length > 2) {
       const chart = make("div", null, "residual");
       told.append(chart);
-      const x = residuals.map((_, i) => i + 1), tens = residuals.filter((r) => r > 0).map(Math.log10);
+      const x = residuals.map((_, i) => i + 1), end = x.length + 1;
+      const { limit, worst } = story, least = 1e-17, seen = (r) => Math.max(r, least);
+      const tens = [...residuals.filter((r) => r > 0), limit].map((r) => Math.log10(seen(r)));
+      if (worst !== null) tens.push(Math.log10(seen(worst)));
       const decades = Math.ceil(Math.max(...tens)) - Math.floor(Math.min(...tens));
       Plotly.newPlot(chart, [
         { x, y: story.passes.map((p) => p.n_changed), type: "bar", yaxis: "y2",
           marker: { color: "#d7dde6" }, name: "supports that changed", hoverinfo: "x+y+name" },
-        { x, y: residuals.map((r) => (r > 0 ? r : null)), mode: "lines+markers",
-          line: { color: "#1f3864", width: 1.5 }, marker: { size: 4 }, name: "residual",
-          text: story.passes.map((p) => p.what), hovertemplate: "%{x}: %{y:.2e} (%{text})" },
-      ], { margin: { l: 64, r: 56, t: 26, b: 38 }, font: { size: 11, color: "#1b2430" },
+        { x, y: residuals.map((r) => (r === null ? null : seen(r))), mode: "lines+markers",
+          line: { color: "#1f3864", width: 1.5 }, marker: { size: 4 }, name: story.measured,
+          text: story.passes.map((p) => p.said + " (" + p.what + ")"),
+          hovertemplate: "%{x}: %{y:.2e}, %{text}<extra></extra>" },
+        { x: [0.4, end + 0.6], y: [limit, limit], mode: "lines", hoverinfo: "skip",
+          line: { color: "#5b6675", width: 1, dash: "dash" },
+          name: "allowed in the certificate, " + limit.toExponential(0) },
+        ...(worst === null ? [] : [{ x: [end], y: [seen(worst)], mode: "markers", name:
+          "certificate, worst item " + worst.toExponential(1), hoverinfo: "name",
+          marker: { symbol: "star", size: 12, color: story.good ? "#1e7b34" : "#b00020" } }]),
+      ], { margin: { l: 84, r: 56, t: 26, b: 38 }, font: { size: 11, color: "#1b2430" },
         legend: { orientation: "h", y: 1.16, x: 0 }, xaxis: { title: { text: "iteration" },
-          range: [0.4, x.length + 0.6], showgrid: false,
+          range: [0.4, end + 0.6], showgrid: false,
           dtick: Math.max(1, Math.ceil(x.length / 15)) },
-        yaxis: { type: "log", title: { text: "residual" }, exponentformat: "power",
+        yaxis: { type: "log", title: { text: story.axis }, exponentformat: "power",
           dtick: Math.max(1, Math.ceil(decades / 5)),
           overlaying: "y2", gridcolor: "#edf0f4" },
-        yaxis2: { side: "right", title: { text: "changes" }, rangemode: "tozero",
+        yaxis2: { side: "right", title: { text: "supports changed" }, rangemode: "tozero",
           showgrid: false, dtick: Math.max(1, Math.ceil(
             Math.max(...story.passes.map((p) => p.n_changed)) / 5)) } },
       { displayModeBar: false, responsive: true });

@@ -10,8 +10,8 @@ from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocato
 
 from trunnion.arrays import F8, CaseResult, Results
 from trunnion.certificate import LIMIT
-from trunnion.certificate.scales import measure
 from trunnion.frozen import frozen
+from trunnion.report.balance import balance
 from trunnion.report.plots.page import (
     EDGE,
     FOOT,
@@ -62,24 +62,8 @@ class Story:
 def story(case: CaseResult) -> Story:
     """Make the iterations of a case numbers without unit."""
     kinds = [phase_of(str(record.get("what", ""))) for record in case.history]
-    raw = [record.get("residual") for record in case.history]
-    value = np.array([float(x) if isinstance(x, float | int) else np.nan for x in raw])
-    force, length = scales(case)
-    by_length = np.array([kind == "status" for kind in kinds], bool)
-    value = np.where(by_length, value / length, value / force)
     changed = [record.get("n_changed", 0) for record in case.history]
-    return Story(case, value, kinds, np.array(changed, np.float64))
-
-
-def scales(case: CaseResult) -> tuple[float, float]:
-    """Force [N] and length [m] that are one: those of the certificate, or of the loads alone."""
-    if case.state is not None and case.loads is not None:
-        found = measure(case.system, case.loads, case.state)
-        return found.force, found.length
-    if case.loads is None:
-        return 1.0, 1.0
-    own = np.abs(case.loads.dist * case.system.length[:, None]).max(initial=0.0)
-    return float(max(own, np.abs(case.loads.nodal[:, :3]).max(initial=0.0))) or 1.0, 1.0
+    return Story(case, balance(case).value, kinds, np.array(changed, np.float64))
 
 
 def phase_of(what: str) -> str:
