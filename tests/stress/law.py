@@ -34,7 +34,10 @@ def violation(scene: Scene, case: CaseResult) -> tuple[float, str]:
     sizes = [mpf(float(x)) for x in np.abs(state.reaction).ravel()]
     sizes += [abs(mpf(x)) for load in scene.loads for x in load[:3]]
     sizes += [abs(x) * beam.length for beam in scene.beams for x in beam.load]
+    # free expansion is a double, and the force that would hold it is rounded with it
+    held = max(abs(scene.strain) * beam.length / beam.axial for beam in scene.beams)
     force = max([*sizes, mpf(float(end[:, :, :3].max())) * mpf("1e-4"), mpf("1e-6")])
+    force = max(force, held * mpf("1e-7"))
     turns = [abs(mpf(x)) for load in scene.loads for x in load[3:]]
     moment = max([*turns, force * MOMENT_ARM, mpf(float(end[:, :, 3:].max()))])
     for off, turn, where in loose:
@@ -66,9 +69,11 @@ def _elements(scene, case, u, move, balance, loose):
         sag = beam.sag()
         v, r = add(add(v, beam.d, scene.strain), sag[0]), add(r, sag[1])
         a, b = u[pipe.a], u[pipe.b]
-        # an end force is reported to 1e-16 of itself: what that rounding bends is no error
+        # an end force is reported to 1e-16 of itself: what that bends or stretches is no error
         f = mpmath.sqrt(dot(second[:3], second[:3]))
-        bent = f * beam.sway + mpmath.sqrt(dot(second[3:], second[3:])) * beam.mixed
+        bent = (
+            f * max(beam.sway, beam.axial) + mpmath.sqrt(dot(second[3:], second[3:])) * beam.mixed
+        )
         rounded = bent * mpf("1e-7"), bent * mpf("1e-7") / beam.length
         w = add(add(add(b[:3], a[:3], -1), cross(a[3:], beam.d), -1), v, -1)
         t = add(add(b[3:], a[3:], -1), r, -1)

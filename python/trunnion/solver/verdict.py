@@ -89,7 +89,7 @@ def report_numbers(
     try:
         bias = structure.unbiased()
         r, every, end, response = structure.exact(point, law, forcing, bias)
-        before, best = None, (np.inf, np.inf)
+        before, best = None, (np.inf, np.inf, np.inf)
         shift = 0.0
         for i in range(REFINEMENTS):
             shift = _factor(structure, response)
@@ -98,16 +98,19 @@ def report_numbers(
             trial.move(p)
             then = structure.respond(trial, law, forcing, np.zeros_like(r))
             left = corrections(structure, p, point, response, then)
-            # a reaction is a difference of displacements: it may lag behind them by one pass
-            better = any(new < old for new, old in zip(left, best, strict=True))
+            off = unbalance(structure, r, response)
+            # a reaction is a difference of displacements, it may lag behind them by one pass, and
+            # forces of short stiff pieces settle last
+            seen = *left, off
+            better = any(new < old for new, old in zip(seen, best, strict=True))
             if not better and before is not None:
                 last, every, end, response, then, p, left = before
                 point.become(last)
                 shift = _factor(structure, response)  # what follows is asked of this point
-            fine = max(left) <= SHARP and unbalance(structure, r, response) <= BALANCED
+            fine = max(left) <= SHARP and off <= BALANCED
             if not better or fine or i == REFINEMENTS - 1:
                 break
-            before, best = (point.copy(), every, end, response, then, p, left), left
+            before, best = (point.copy(), every, end, response, then, p, left), seen
             point.become(trial)
             r, every, end, response = structure.exact(point, law, forcing, bias)
         broken = judge(response, then, p, None, point.u).broken
