@@ -8,9 +8,9 @@ import sys
 from pathlib import Path
 
 import pytest
+from program import leave
 
 import trunnion
-from trunnion.cli import main
 
 BAD = "PIPE 10 20 DX=1\nPIPPE 20 30\n"
 
@@ -29,19 +29,13 @@ def solves(monkeypatch, results):
     return results
 
 
-def trunnion_exit(*arguments: object) -> int:
-    with pytest.raises(SystemExit) as stop:
-        main([str(a) for a in arguments])
-    return stop.value.code
-
-
 def files(folder: Path) -> list[str]:
     return sorted(p.name for p in folder.iterdir())
 
 
 def test_certified_run_exits_0_and_writes_two_files(home, solves, capsys):
     del solves.cases["OFF"]
-    assert trunnion_exit("run", "a.inp") == 0
+    assert leave("run", "a.inp") == 0
     assert files(home) == ["a.inp", "a.json", "a.out"]
     out = capsys.readouterr().out
     assert len(out.splitlines()) <= 24
@@ -50,7 +44,7 @@ def test_certified_run_exits_0_and_writes_two_files(home, solves, capsys):
 
 
 def test_a_case_that_fails_exits_1_and_the_good_ones_are_written(home, solves, capsys):
-    assert trunnion_exit("run", "a.inp", "-o", "there", "--h5", "--timings") == 1
+    assert leave("run", "a.inp", "-o", "there", "--h5", "--timings") == 1
     assert files(home / "there") == ["a.h5", "a.json", "a.out"]
     cases = json.loads((home / "there" / "a.json").read_text())["cases"]
     assert [case["converged"] for case in cases.values()] == [True, False, True]
@@ -58,7 +52,7 @@ def test_a_case_that_fails_exits_1_and_the_good_ones_are_written(home, solves, c
 
 
 def test_every_format_that_is_asked_for_is_written_with_the_others(home, solves, capsys):
-    assert trunnion_exit("run", "a.inp", "-o", "all", "--xlsx", "--csv", "--vtu", "--h5") == 1
+    assert leave("run", "a.inp", "-o", "all", "--xlsx", "--csv", "--vtu", "--h5") == 1
     assert files(home / "all") == [
         *("a.h5", "a.json", "a.out", "a.pvd", "a.xlsx", "a_csv", "a_vtu"),
     ]
@@ -82,7 +76,7 @@ def test_a_failure_while_writing_leaves_none_of_the_formats(home, solves, monkey
         real(path, content)
 
     monkeypatch.setattr(atomic, "_write", full)
-    assert trunnion_exit("run", "a.inp", "-o", "all", "--xlsx", "--csv", "--vtu") == 3
+    assert leave("run", "a.inp", "-o", "all", "--xlsx", "--csv", "--vtu") == 3
     assert [path for path in (home / "all").rglob("*") if path.is_file()] == []
 
 
@@ -90,7 +84,7 @@ def test_all_packages_that_are_missing_are_named_before_any_work(home, monkeypat
     import importlib.util
 
     monkeypatch.setattr(importlib.util, "find_spec", lambda name: None)
-    assert trunnion_exit("run", "a.inp", "--xlsx", "--vtu", "--csv") == 2
+    assert leave("run", "a.inp", "--xlsx", "--vtu", "--csv") == 2
     assert capsys.readouterr().err.splitlines() == [
         "--xlsx needs the package xlsxwriter: pip install 'trunnion[excel]'",
         "--vtu needs the package pyevtk: pip install 'trunnion[vtk]'",
@@ -99,8 +93,8 @@ def test_all_packages_that_are_missing_are_named_before_any_work(home, monkeypat
 
 
 def test_nothing_of_the_machine_is_in_the_files(home, solves):
-    trunnion_exit("run", "a.inp", "-o", "one")
-    trunnion_exit("run", home / "a.inp", "-o", home / "two", "--timings")
+    leave("run", "a.inp", "-o", "one")
+    leave("run", home / "a.inp", "-o", home / "two", "--timings")
     for name in ("a.out", "a.json"):
         text = (home / "one" / name).read_bytes()
         assert text == (home / "two" / name).read_bytes()
@@ -109,7 +103,7 @@ def test_nothing_of_the_machine_is_in_the_files(home, solves):
 
 def test_wrong_deck_exits_2_with_its_line_and_writes_nothing(home, solves, capsys):
     (home / "b.inp").write_text(BAD)
-    assert trunnion_exit("run", "b.inp", "-o", "there") == 2
+    assert leave("run", "b.inp", "-o", "there") == 2
     captured = capsys.readouterr()
     assert captured.out == ""
     assert "b.inp:2: " in captured.err
@@ -131,7 +125,7 @@ def test_wrong_deck_exits_2_with_its_line_and_writes_nothing(home, solves, capsy
     ],
 )
 def test_wrong_command_exits_2(home, solves, capsys, arguments, said):
-    assert trunnion_exit(*arguments) == 2
+    assert leave(*arguments) == 2
     captured = capsys.readouterr()
     assert said in captured.err
     assert "Traceback" not in captured.err
@@ -139,14 +133,14 @@ def test_wrong_command_exits_2(home, solves, capsys, arguments, said):
 
 
 def test_check_reads_and_numbers_without_solving(home, capsys):
-    assert trunnion_exit("check", "a.inp") == 0
+    assert leave("check", "a.inp") == 0
     assert "3 nodes, 2 elements, 2 supports, 3 cases" in capsys.readouterr().out
     assert files(home) == ["a.inp"]
 
 
 def test_check_refuses_what_run_refuses(home, capsys):
     (home / "b.inp").write_text(BAD)
-    assert trunnion_exit("check", "b.inp") == 2
+    assert leave("check", "b.inp") == 2
     assert "b.inp:2: " in capsys.readouterr().err
 
 
@@ -154,7 +148,7 @@ def test_check_names_what_moves(home, capsys):
     loose = (home / "a.inp").read_text().replace("ANCHOR   10", "SUPPORT 10 X Y Z RX")
     loose = loose.replace("+Y GUIDE GAP=50", "Y").replace("MU=0.3", "MU=0")
     (home / "b.inp").write_text(loose)
-    assert trunnion_exit("check", "b.inp") == 2
+    assert leave("check", "b.inp") == 2
     assert "line 10-30 turns about Y" in capsys.readouterr().err
 
 
@@ -163,7 +157,7 @@ def test_internal_error_exits_3_with_a_log_and_no_traceback(home, monkeypatch, c
         raise ZeroDivisionError("a number was zero")
 
     monkeypatch.setattr(trunnion, "solve", breaks, raising=False)
-    assert trunnion_exit("run", "a.inp") == 3
+    assert leave("run", "a.inp") == 3
     captured = capsys.readouterr()
     assert "ZeroDivisionError: a number was zero" in captured.err
     assert "Traceback" not in captured.err
@@ -174,7 +168,7 @@ def test_internal_error_exits_3_with_a_log_and_no_traceback(home, monkeypatch, c
 
 def test_nan_in_an_answer_is_an_internal_error(home, solves):
     solves["OPE"].state.u[0, 0] = float("nan")
-    assert trunnion_exit("run", "a.inp") == 3
+    assert leave("run", "a.inp") == 3
     assert not (home / "a.out").exists()
 
 
@@ -210,7 +204,7 @@ def test_a_closed_pipe_changes_neither_messages_nor_code(home):
 
 
 def test_interruption_while_writing_keeps_the_old_report(home, solves, monkeypatch):
-    assert trunnion_exit("run", "a.inp") == 1
+    assert leave("run", "a.inp") == 1
     old = (home / "a.out").read_bytes()
 
     def fsync(number: int) -> None:
@@ -218,7 +212,7 @@ def test_interruption_while_writing_keeps_the_old_report(home, solves, monkeypat
 
     monkeypatch.setattr(os, "fsync", fsync)
     solves.title = "another"
-    assert trunnion_exit("run", "a.inp") == 130
+    assert leave("run", "a.inp") == 130
     assert (home / "a.out").read_bytes() == old
     assert files(home) == ["a.inp", "a.json", "a.out"]
 

@@ -6,8 +6,7 @@ import sys
 from pathlib import Path
 
 import pytest
-
-from trunnion.cli import main
+from program import leave, stored
 
 MODELS = Path(__file__).parents[2] / "models"
 DECK = """\
@@ -34,19 +33,10 @@ COMB OCC = SUS + ABS(EQX)
 """
 
 
-def leave(*arguments: object) -> int:
-    with pytest.raises(SystemExit) as stop:
-        main([str(a) for a in arguments])
-    return stop.value.code
-
-
 @pytest.fixture(scope="module")
 def written(tmp_path_factory):
     """Bytes of the JSON of DECK."""
-    folder = tmp_path_factory.mktemp("line")
-    (folder / "a.inp").write_text(DECK)
-    assert leave("run", folder / "a.inp", "-o", folder) == 0
-    return (folder / "a.json").read_bytes()
+    return stored(tmp_path_factory.mktemp("line"), DECK)
 
 
 @pytest.fixture

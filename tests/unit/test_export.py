@@ -10,11 +10,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from program import leave
 
 import trunnion
 from trunnion.arrays import ARC, TAPER, no_loads
 from trunnion.certificate.deformation import expected, tip_vector
-from trunnion.cli import main
 from trunnion.exports import build_job, files
 from trunnion.exports.agreement import agrees, differences, laws, table, tried, unanswered
 from trunnion.exports.calculix.answer import _blocks
@@ -48,12 +48,6 @@ def data_of(script: bytes) -> dict:
     space = {"__name__": "exported"}
     exec(compile(script, "exported", "exec"), space)
     return space["JOB"]
-
-
-def trunnion_exit(*arguments: object) -> int:
-    with pytest.raises(SystemExit) as stop:
-        main([str(a) for a in arguments])
-    return stop.value.code
 
 
 # ------------------------------------------------------------------ hinges of bends and reducers
@@ -289,7 +283,7 @@ def test_cases_that_are_no_static_job_are_named_with_their_place():
 
 def test_a_spectrum_is_refused_and_nothing_is_written(tmp_path, capsys):
     deck = ROOT / "models/nr1677_v1_p1.inp"
-    assert trunnion_exit("export", deck, "-o", tmp_path) == 2
+    assert leave("export", deck, "-o", tmp_path) == 2
     said = capsys.readouterr().err
     assert "a response spectrum combines modes" in said
     assert "nothing was written" in said
@@ -339,7 +333,7 @@ def test_only_cases_can_be_chosen(name, said):
 
 def test_chosen_cases_alone_are_written(tmp_path, capsys):
     deck = ROOT / "models/b313_s302.inp"
-    assert trunnion_exit("export", deck, "--case", "OPE", "-o", tmp_path) == 0
+    assert leave("export", deck, "--case", "OPE", "-o", tmp_path) == 0
     assert "wrote" in capsys.readouterr().out
     (path,) = tmp_path.iterdir()
     assert path.name == "b313_s302_opensees.py"
@@ -425,7 +419,7 @@ def test_a_law_that_fails_is_no_agreement():
 
 def test_confirm_names_what_is_not_installed(tmp_path, capsys, monkeypatch):
     monkeypatch.setattr("trunnion.exports.confirm.find_spec", lambda name: None)
-    assert trunnion_exit("confirm", ROOT / "models/pipe_10m.inp", "-o", tmp_path) == 2
+    assert leave("confirm", ROOT / "models/pipe_10m.inp", "-o", tmp_path) == 2
     assert "pip install 'trunnion[opensees]'" in capsys.readouterr().err
     assert not list(tmp_path.iterdir())
 
@@ -445,7 +439,7 @@ def test_confirm_says_whether_they_agree(factor, code, tmp_path, capsys, monkeyp
 
     monkeypatch.setattr("trunnion.exports.confirm.answer", answer)
     monkeypatch.setattr("trunnion.exports.confirm.missing", lambda program: "")
-    assert trunnion_exit("confirm", ROOT / "models/pipe_10m.inp") == code
+    assert leave("confirm", ROOT / "models/pipe_10m.inp") == code
     said = capsys.readouterr().out
     assert ("1 case confirmed by Other 1" in said) == (code == 0)
     assert ("DIFFERS" in said) == (code == 1)

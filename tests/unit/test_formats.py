@@ -10,8 +10,8 @@ import sys
 import types
 
 import pytest
+from program import leave
 
-from trunnion.cli import main
 from trunnion.commands import shared
 from trunnion.deck.reader import read_text
 from trunnion.errors import DeckError
@@ -58,12 +58,6 @@ def home(tmp_path, monkeypatch):
     (tmp_path / "odd.toy").write_text(ODD)
     monkeypatch.chdir(tmp_path)
     return tmp_path
-
-
-def leave(*arguments):
-    with pytest.raises(SystemExit) as stop:
-        main([str(a) for a in arguments])
-    return stop.value.code
 
 
 def test_every_suffix_of_a_format_is_known_to_the_commands():

@@ -8,8 +8,7 @@ from pathlib import Path
 
 import pytest
 from falls import FALLS
-
-from trunnion.cli import main
+from program import leave, stored
 
 MODELS = Path(__file__).parents[2] / "models"
 DECK = """\
@@ -45,19 +44,10 @@ MODES 6 ABOUT=OPE
 """
 
 
-def leave(*arguments: object) -> int:
-    with pytest.raises(SystemExit) as stop:
-        main([str(a) for a in arguments])
-    return stop.value.code
-
-
 @pytest.fixture(scope="module")
 def written(tmp_path_factory):
     """Bytes of the JSON of DECK."""
-    folder = tmp_path_factory.mktemp("rejudge")
-    (folder / "a.inp").write_text(DECK)
-    assert leave("run", folder / "a.inp", "-o", folder) == 0
-    return (folder / "a.json").read_bytes()
+    return stored(tmp_path_factory.mktemp("rejudge"), DECK)
 
 
 @pytest.fixture

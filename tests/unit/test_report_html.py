@@ -9,6 +9,7 @@ from io import BytesIO
 import numpy as np
 import pytest
 from pagebrowser import choose, chromium, opened, picture, requests, until_drawn
+from program import leave
 
 import trunnion
 from trunnion.arrays import Pass
@@ -45,9 +46,7 @@ def page(tmp_path_factory):
     """A report on disk."""
     home = tmp_path_factory.mktemp("html")
     (home / "line.inp").write_text(DECK)
-    with pytest.raises(SystemExit) as stop:
-        main(["run", str(home / "line.inp"), "-o", str(home), "--html"])
-    assert stop.value.code == 0
+    assert leave("run", home / "line.inp", "-o", home, "--html") == 0
     return home / "line.html"
 
 
@@ -207,9 +206,7 @@ CASE EQX = U(0.2,0,0) ABOUT=OPE
 def parts(tmp_path_factory):
     home = tmp_path_factory.mktemp("parts")
     (home / "parts.inp").write_text(PARTS)
-    with pytest.raises(SystemExit) as stop:
-        main(["run", str(home / "parts.inp"), "-o", str(home), "--html"])
-    assert stop.value.code == 0
+    assert leave("run", home / "parts.inp", "-o", home, "--html") == 0
     return home / "parts.html"
 
 

@@ -13,6 +13,7 @@ from matplotlib.backends.backend_agg import RendererAgg
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import to_hex, to_rgb, to_rgba
 from matplotlib.text import Text
+from program import leave
 
 import trunnion
 from trunnion.cli import main
@@ -581,9 +582,7 @@ def run(tmp_path_factory):
     """Pictures on disk."""
     home = tmp_path_factory.mktemp("png")
     (home / "line.inp").write_text(LINE)
-    with pytest.raises(SystemExit) as stop:
-        main(["run", str(home / "line.inp"), "-o", str(home), "--png"])
-    assert stop.value.code == 0
+    assert leave("run", home / "line.inp", "-o", home, "--png") == 0
     return home
 
 

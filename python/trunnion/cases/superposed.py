@@ -8,7 +8,6 @@ import numpy as np
 from trunnion.arrays import CaseResult
 from trunnion.loads import case_loads
 from trunnion.model import Case, Term
-from trunnion.solver.superpose import solve_bases, superpose
 
 if TYPE_CHECKING:
     from trunnion.cases.analysis import Run
@@ -33,6 +32,8 @@ def as_sums(run: "Run", structure: "Structure", cases: Sequence[Case]) -> dict[s
     few = not cases or len(cases) < WORTH * len(sets)
     if few or run.starts or not len(structure.system.kind):
         return {}
+    from trunnion.solver.superpose import solve_bases, superpose
+
     units = [Case(name, (Term(1.0, name, vector),)) for name, vector in sets]
     bases = solve_bases(
         structure, [case_loads(run.model, structure.system, unit, run.sets) for unit in units]

@@ -1,6 +1,8 @@
 """Balance of every element with its load, and its deformation against its end forces."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -39,7 +41,7 @@ def element_errors(system: System, loads: Loads, state: State, scale: Scale) -> 
     if not count:
         return ElementErrors(np.zeros(0), np.zeros(0), np.zeros((2, 0)), np.zeros(2), 1.0, 1.0)
     parts = [
-        _block(*cut(system, loads, state, slice(at, at + BLOCK)), scale)
+        _block(*_cut(system, loads, state, slice(at, at + BLOCK)), scale)
         for at in range(0, count, BLOCK)
     ]
     balances, wrongs, acrosses, owns, kin = zip(*parts, strict=True)
@@ -56,15 +58,23 @@ def element_errors(system: System, loads: Loads, state: State, scale: Scale) -> 
     return ElementErrors(np.concatenate(balances), law, own, most, length, angle)
 
 
-def cut(system: System, loads: Loads, state: State, b: slice) -> tuple[System, Loads, State]:
+def _cut(system: System, loads: Loads, state: State, b: slice) -> tuple[System, Loads, State]:
     """Give the elements of one block; nodes are shared."""
     if len(system.kind) <= BLOCK:
         return system, loads, state
     return (
-        replace(system, **{name: getattr(system, name)[b] for name in SHAPE}),
-        replace(loads, **{name: getattr(loads, name)[b] for name in ALONG}),
+        replace(system, **rows(system, SHAPE, b)),
+        replace(loads, **rows(loads, ALONG, b)),
         replace(state, end_force=state.end_force[b]),
     )
+
+
+def rows(
+    record: System | Loads, names: Sequence[str], which: deformation.Index | slice
+) -> dict[str, Any]:
+    """Arrays of some elements by name; what a model has nothing of has no rows."""
+    every = {name: getattr(record, name) for name in names}
+    return {name: a[which] if len(a) else a for name, a in every.items()}
 
 
 def _block(

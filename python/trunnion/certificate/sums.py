@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trunnion.arrays import F8, Certificate, Item, Loads, State, System
-from trunnion.certificate.elements import ALONG, SHAPE, ElementErrors, own_deformations
+from trunnion.certificate.elements import ALONG, SHAPE, ElementErrors, own_deformations, rows
 from trunnion.certificate.items import number, verdict
 from trunnion.certificate.scales import Scale, largest, measure
 
@@ -155,10 +155,10 @@ def _sizes(
     ends, contacts = system.ends[elements].ravel(), _union(p.contacts for p in parts)
     nodes = np.concatenate((ends, _union(p.nodes for p in parts)))
     turning = replace(system.contacts, rotational=system.contacts.rotational[contacts])
-    some = replace(system, contacts=turning, **_rows(system, SHAPE, elements))
+    some = replace(system, contacts=turning, **rows(system, SHAPE, elements))
     few = [
         (
-            replace(own, nodal=own.nodal[nodes], **_rows(own, ALONG, elements)),
+            replace(own, nodal=own.nodal[nodes], **rows(own, ALONG, elements)),
             replace(
                 state,
                 u=state.u[nodes],
@@ -208,22 +208,14 @@ def _union(places: Iterable[frozenset[int]]) -> NDArray[np.intp]:
     return np.array(sorted(every), np.intp)
 
 
-def _rows(
-    record: System | Loads, names: Sequence[str], elements: NDArray[np.intp]
-) -> dict[str, Any]:
-    """Arrays of some elements; what a model has nothing of has no rows."""
-    every = {name: getattr(record, name) for name in names}
-    return {name: a[elements] if len(a) else a for name, a in every.items()}
-
-
 def _checked(
     loads: Sequence[Loads], states: Sequence[State], factors: F8, parts: Sequence[Part]
 ) -> F8:
     """Whether the numbers are the sums that they should be: 0, or `WRONG`."""
     due = factors @ np.stack([p.checks for p in parts])
     sizes = np.abs(factors) @ np.stack([p.sums for p in parts])
-    off = np.abs(_checksums(loads, states) - due) <= MATCH * sizes
-    return np.where(off.all(axis=1), 0.0, WRONG)
+    same = np.abs(_checksums(loads, states) - due) <= MATCH * sizes
+    return np.where(same.all(axis=1), 0.0, WRONG)
 
 
 def _checksums(loads: Sequence[Loads], states: Sequence[State]) -> F8:

@@ -57,13 +57,12 @@ def solve_step(
         return solved
     structure.soft = True
     try:
-        trial = start.copy()
-        again = _solve_step(structure, trial, sliding, forcing, history, capacity)
+        again = _solve_step(structure, start, sliding, forcing, history, capacity)
     finally:
         structure.soft = False
     if not again.settled:
         return solved
-    point.become(trial)
+    point.become(start)
     return again
 
 

@@ -90,7 +90,6 @@ def report_numbers(
         bias = structure.unbiased()
         r, every, end, response = structure.exact(point, law, forcing, bias)
         before, best = None, (np.inf, np.inf, np.inf)
-        shift = 0.0
         for i in range(REFINEMENTS):
             shift = _factor(structure, response)
             p = coupled_step(structure, response, law, r)
@@ -102,13 +101,13 @@ def report_numbers(
             # a reaction is a difference of displacements, it may lag behind them by one pass, and
             # forces of short stiff pieces settle last
             seen = *left, off
-            better = any(new < old for new, old in zip(seen, best, strict=True))
-            if not better and before is not None:
-                last, every, end, response, then, p, left = before
-                point.become(last)
-                shift = _factor(structure, response)  # what follows is asked of this point
-            fine = max(left) <= SHARP and off <= BALANCED
-            if not better or fine or i == REFINEMENTS - 1:
+            if not any(new < old for new, old in zip(seen, best, strict=True)):
+                if before is not None:
+                    last, every, end, response, then, p, left = before
+                    point.become(last)
+                    shift = _factor(structure, response)  # what follows is asked of this point
+                break
+            if (max(left) <= SHARP and off <= BALANCED) or i == REFINEMENTS - 1:
                 break
             before, best = (point.copy(), every, end, response, then, p, left), seen
             point.become(trial)
