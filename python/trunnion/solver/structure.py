@@ -27,11 +27,16 @@ EXTENDED_PIVOT = 1e-12  # a pivot in double-double that is worth one in doubles
 
 
 class Box:
-    """One analysed factor, shared by structures of the same pattern; `owner` filled it last."""
+    """One analysed factor, shared by structures of the same pattern.
+
+    `owner` is the mark of the structure that filled it last, not that structure: a cycle of
+    references would keep all of its arrays until the collector runs, and the next solve from
+    using their memory.
+    """
 
     def __init__(self) -> None:
         self.spd: kernels.SpdFactor | None = None
-        self.owner: Structure | None = None
+        self.owner: object = None
         self.held: tuple[F8, F8, float] | None = None
         self.rcond = 0.0
 
@@ -61,6 +66,7 @@ class Structure:
         like: "Structure | None" = None,
     ) -> None:
         self.system, self.ledger = system, ledger
+        self.mark = object()
         self.shifted = self.checked = False  # a singular tangent was met; it was looked into
         self.keep, self.parent, self.like = keep, parent, like
         self.extended: ExtendedFactor | None = None
@@ -163,7 +169,7 @@ class Structure:
     @property
     def held(self) -> tuple[F8, F8, float] | None:
         """Tangents and shift in the factor; None when it holds another structure's."""
-        return self.box.held if self.box.owner is self else None
+        return self.box.held if self.box.owner is self.mark else None
 
     @property
     def rcond(self) -> float:
@@ -356,7 +362,7 @@ class Structure:
             return False
         finally:
             self.ledger.follow(box, box.spd.work)
-        box.owner, box.held = self, (tangent, slider_tangent, shift)
+        box.owner, box.held = self.mark, (tangent, slider_tangent, shift)
         return True
 
     def _factorise_extended(
@@ -371,7 +377,7 @@ class Structure:
             box.rcond = factor.factorise(tangent, slider_tangent, shift) / EXTENDED_PIVOT
         except NotPositiveDefiniteError:
             return False
-        box.owner, box.held = self, (tangent, slider_tangent, shift)
+        box.owner, box.held = self.mark, (tangent, slider_tangent, shift)
         return True
 
     def extend(self, extended: bool) -> bool:
@@ -396,7 +402,7 @@ class Structure:
             return rows.reshape(r.shape)
         spd = self.box.spd
         assert spd is not None
-        assert self.box.owner is self
+        assert self.box.owner is self.mark
         shape = r.shape
         x = spd.solve(r.reshape(-1, 6 * self.n_node))
         self.ledger.follow(self.box, spd.work)
