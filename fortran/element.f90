@@ -162,8 +162,8 @@ contains
       do j = 1, 6
          x(:) = 0.0_wp
          x(j) = 1.0_wp
-         do i = 1, 6
-            x(i) = (x(i) - dot_product(l(i, 1:i - 1), x(1:i - 1)))/l(i, i)
+         do i = j, 6                         ! zero before the one
+            x(i) = (x(i) - dot_product(l(i, j:i - 1), x(j:i - 1)))/l(i, i)
          end do
          do i = 6, 1, -1
             x(i) = (x(i) - dot_product(l(i + 1:6, i), x(i + 1:6)))/l(i, i)

@@ -8,7 +8,7 @@ module elements
    use status_codes, only: status_ok
    implicit none (type, external)
    private
-   public :: assemble_elements, element_end_forces, element_loads, element_stiffness
+   public :: add_ends, assemble_elements, element_end_forces, element_loads, element_stiffness
 
 contains
 
@@ -88,5 +88,21 @@ contains
          r(:, b) = r(:, b) - f(:, 2, i)
       end do
    end subroutine element_end_forces
+
+   !> Add a share of every element's end forces to its nodes.
+   pure subroutine add_ends(ends, share, f, r)
+      integer(ip), intent(in) :: ends(:, :)
+      real(wp), intent(in) :: share(:), f(:, :, :)
+      real(wp), intent(inout) :: r(:, :)
+
+      integer(ip) :: i, j, n
+
+      do i = 1_ip, size(share, kind=ip)
+         do j = 1_ip, 2_ip
+            n = ends(j, i) + 1_ip
+            r(:, n) = r(:, n) + share(i)*f(:, j, i)
+         end do
+      end do
+   end subroutine add_ends
 
 end module elements

@@ -5,6 +5,7 @@ from math import log10
 
 import numpy as np
 
+from trunnion import kernels
 from trunnion.arrays import F8, SLIP
 from trunnion.solver.coupled import coupled_step
 from trunnion.solver.newton import TINY_PIVOT, tangent_factor
@@ -91,9 +92,8 @@ def scatter_input(
     load = _scattered(point.u.size, 2).reshape(-1, 6) * forcing.nodal
     for start, at in enumerate((point, Point.zero(structure.n_node))):
         end = structure.member_forces(at, forcing, np.zeros_like(load))
-        signs = _scattered(len(end), start)
-        for side in (0, 1):
-            np.add.at(load, structure.members.ends[:, side], signs[:, None] * end[:, side])
+        if len(end):
+            kernels.add_ends(structure.members.ends, _scattered(len(end), start), end, load)
     load[structure.absent] = 0.0
     p = structure.solve(load)
     loss = _loss(structure, load, p)
@@ -130,11 +130,12 @@ def digits_left(
 
 def _scattered(n: int, start: int) -> F8:
     """Signs and sizes from 0.5 to 1 without order (Weyl); numpy.random would be imported for it."""
-    share = np.mod(np.arange(1, n + 1) * (0.5 * (5.0**0.5 - 1.0)) + 0.37 * start, 1.0)
+    share = np.arange(1, n + 1) * (0.5 * (5.0**0.5 - 1.0)) + 0.37 * start
+    share -= np.floor(share)
     signs: F8 = np.where(share < 0.5, -0.5 - share, share)
     return signs
 
 
 def travel(structure: Structure, p: F8) -> float:
     """Largest movement [m]; a rotation counts with what it moves over the largest element."""
-    return float((np.abs(p) * structure.levers).max(initial=0.0))
+    return kernels.largest_move(p, structure.reach)

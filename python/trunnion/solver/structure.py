@@ -3,7 +3,6 @@
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from trunnion import kernels
 from trunnion.arrays import F8, I4, Loads, System
@@ -181,11 +180,6 @@ class Structure:
         """Extent of the model [m], at least 1."""
         xyz = self.system.xyz
         return max(1.0, float(np.ptp(xyz, axis=0).max())) if len(xyz) else 1.0
-
-    @cached_property
-    def turning(self) -> NDArray[np.intp]:
-        """Contacts that resist rotations."""
-        return np.flatnonzero(self.contacts.rotational)
 
     @cached_property
     def hangers(self) -> tuple[int, ...]:
@@ -413,19 +407,19 @@ class Structure:
         v = np.ascontiguousarray(v)
         r = np.zeros_like(v)
         self.member_forces(Point(v, np.zeros_like(v)), self.still, r)
-        self.scatter(-np.einsum("cij,cj->ci", tangent, self.gather(v)), r)
+        kernels.contact_product(self.at, tangent, True, v, r)
         self.sliders_product(slider_tangent, v, r)
         r[self.absent] = 0.0
         return -r
 
     def changing_product(self, response: Response, p: F8, r: F8) -> None:
         """Subtract from r the share of K p that comes from contacts which may change."""
-        kernels.contact_product(self.at, response.tangent, p, r)
+        kernels.contact_product(self.at, response.tangent, False, p, r)
         self.sliders_product(response.slider_tangent, p, r)
 
     def sliders_product(self, slider_tangent: F8, p: F8, r: F8) -> None:
         """Subtract from r the share of K p that comes from sliders."""
-        kernels.contact_product(self.slider_at, slider_tangent, p, r)
+        kernels.contact_product(self.slider_at, slider_tangent, True, p, r)
 
     def coupling(self, response: Response, sliding: Sliding, p: F8) -> tuple[F8, F8]:
         """Change of sliding friction forces through their normal forces for a change p.
@@ -450,15 +444,8 @@ class Structure:
 
     def scatter(self, force: F8, r: F8) -> None:
         """Add contact forces (n_contact, 3) to the nodes' r, and their opposites at cnodes."""
-        columns = self.at[:, 3:4] + np.arange(3)
-        np.add.at(r, (self.at[:, 0:1], columns), force)
-        paired = self.at[:, 1] >= 0
-        np.subtract.at(r, (self.at[paired, 1:2], columns[paired]), force[paired])
+        kernels.scatter(self.at, force, r)
 
     def gather(self, p: F8) -> F8:
         """Relative displacements (n_contact, 3) of the contacts for displacements p."""
-        columns = self.at[:, 3:4] + np.arange(3)
-        w: F8 = p[self.at[:, 0:1], columns]
-        paired = self.at[:, 1] >= 0
-        w[paired] -= p[self.at[paired, 1:2], columns[paired]]
-        return w
+        return kernels.gather(self.at, p)

@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from trunnion import kernels
 from trunnion.arrays import ENGAGED, F8, OPEN, SLIP, State
 from trunnion.solver.convergence import judge
 from trunnion.solver.coupled import coupled_step
@@ -51,7 +52,7 @@ class Terms:
         u : of all nodes of the model: those of the equations may be supports alone.
         """
         moved = travel(structure, self.rigid_u) / max(travel(structure, u), NOTHING)
-        pushed, turned = _halves(structure, self.rigid_r)
+        pushed, turned = kernels.largest_forces(structure.at, self.rigid_r)
         return {"u": moved, "R": max(pushed / sizes.force, turned / sizes.moment)}
 
 
@@ -153,13 +154,13 @@ def corrections(
     du = travel(structure, p)
     rubbed = after.friction - before.friction
     force, moment = support_sizes(structure, before.reaction)
-    push, turn = _halves(structure, after.reaction - before.reaction)
+    push, turn = kernels.largest_forces(structure.at, after.reaction - before.reaction)
     return du / max(u, 1e-300), max(push / force, turn / moment, _largest(rubbed) / force)
 
 
 def unbalance(structure: Structure, r: F8, response: Response) -> float:
     """Out-of-balance force relative to the largest support force; 0 without supports' forces."""
-    force, moment = _halves(structure, response.reaction)
+    force, moment = kernels.largest_forces(structure.at, response.reaction)
     lever = max(moment, 0.01 * force)
     if force == 0.0:
         return 0.0
@@ -168,17 +169,9 @@ def unbalance(structure: Structure, r: F8, response: Response) -> float:
 
 def support_sizes(structure: Structure, reaction: F8) -> tuple[float, float]:
     """Largest force and moment of the supports, at least 1 N and that force [N, N m]."""
-    force, moment = _halves(structure, reaction)
+    force, moment = kernels.largest_forces(structure.at, reaction)
     force = max(1.0, force)
     return force, max(force, moment)
-
-
-def _halves(structure: Structure, a: F8) -> tuple[float, float]:
-    """Largest of forces and of moments of contacts."""
-    size, turning = np.abs(a), structure.turning
-    moment = float(size[turning].max(initial=0.0))
-    size[turning] = 0.0
-    return float(size.max(initial=0.0)), moment
 
 
 def _largest(a: F8) -> float:
