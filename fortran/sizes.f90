@@ -4,25 +4,27 @@ module sizes
    use kinds, only: ip, wp
    implicit none (type, external)
    private
-   public :: largest_forces, largest_move
+   public :: largest_forces, largest_moves
 
 contains
 
-   !> Largest of (6, n) displacements; a rotation counts with what it moves over `reach`.
-   pure function largest_move(p, reach) result(size)
-      real(wp), intent(in) :: p(:, :), reach
-      real(wp) :: size
+   !> Largest translation and rotation.
+   pure subroutine largest_moves(p, length, angle)
+      real(wp), intent(in) :: p(:, :)         !! (6, n)
+      real(wp), intent(out) :: length, angle
 
+      real(wp) :: most(6)
       integer :: i, j
 
-      size = 0.0_wp
+      most(:) = 0.0_wp
       do j = 1, ubound(p, 2)
-         do i = 1, 3
-            size = larger(size, abs(p(i, j)))
-            size = larger(size, reach*abs(p(3 + i, j)))
+         do i = 1, 6
+            most(i) = larger(most(i), abs(p(i, j)))
          end do
       end do
-   end function largest_move
+      length = larger(larger(most(1), most(2)), most(3))
+      angle = larger(larger(most(4), most(5)), most(6))
+   end subroutine largest_moves
 
    !> Largest component of forces and of moments of contacts.
    pure subroutine largest_forces(at, a, force, moment)
@@ -46,12 +48,11 @@ contains
    end subroutine largest_forces
 
    !> The larger of two, or the one that is no number.
-   pure function larger(a, b) result(c)
+   elemental function larger(a, b) result(c)
       real(wp), intent(in) :: a, b
       real(wp) :: c
 
-      c = merge(b, a, b > a .or. b /= b)
-      if (a /= a) c = a
+      c = merge(a, b, a >= b .or. a /= a)
    end function larger
 
 end module sizes

@@ -138,4 +138,10 @@ def _scattered(n: int, start: int) -> F8:
 
 def travel(structure: Structure, p: F8) -> float:
     """Largest movement [m]; a rotation counts with what it moves over the largest element."""
-    return kernels.largest_move(p, structure.reach)
+    return farthest(structure, kernels.largest_moves(p))
+
+
+def farthest(structure: Structure, moves: tuple[float, float]) -> float:
+    """Larger of a translation [m] and what a rotation [rad] moves over the largest element."""
+    length, turned = moves[0], structure.reach * moves[1]
+    return length if length >= turned or length != length else turned

@@ -11,7 +11,7 @@ from trunnion import kernels
 from trunnion.arrays import ENGAGED, F8, OPEN, SLIP, State
 from trunnion.solver.convergence import judge
 from trunnion.solver.coupled import coupled_step
-from trunnion.solver.digits import Scattered, digits_left, scatter_input, travel
+from trunnion.solver.digits import Scattered, digits_left, farthest, scatter_input, travel
 from trunnion.solver.members import expand
 from trunnion.solver.newton import tangent_factor
 from trunnion.solver.quantities import Forcing, Point, Response, Sliding
@@ -44,14 +44,16 @@ class Terms:
         """What changes are measured against."""
         return Sizes(travel(structure, self.u), *support_sizes(structure, self.reaction))
 
-    def penalty_effect(self, structure: Structure, sizes: "Sizes", u: F8) -> dict[str, float]:
+    def penalty_effect(
+        self, structure: Structure, sizes: "Sizes", moves: tuple[float, float]
+    ) -> dict[str, float]:
         """Relative change of displacements and reactions on rigid supports.
 
         Parameters
         ----------
-        u : of all nodes of the model: those of the equations may be supports alone.
+        moves : of all nodes of the model: those of the equations may be supports alone.
         """
-        moved = travel(structure, self.rigid_u) / max(travel(structure, u), NOTHING)
+        moved = travel(structure, self.rigid_u) / max(farthest(structure, moves), NOTHING)
         pushed, turned = kernels.largest_forces(structure.at, self.rigid_r)
         return {"u": moved, "R": max(pushed / sizes.force, turned / sizes.moment)}
 
@@ -73,6 +75,7 @@ class Reported:
     correction_r: float
     rigid: Callable[[], F8]
     penalty_r: F8
+    moves: tuple[float, float]  # largest translation and rotation of all nodes [m, rad]
     penalty_effect: dict[str, float]
     digits: tuple[float, str]  # left of 16, and the freedom that lost most
     blind: bool  # the corrections were found with a factor that has no digits
@@ -121,13 +124,15 @@ def report_numbers(
     state = _state(structure, every, law, response, end)
     terms = Terms(point.u, rigid[0], response.reaction, rigid[1], scattered)
     sizes = terms.sizes(structure)
+    moves = kernels.largest_moves(state.u)
     reached, where, blind = digits_left(structure, sizes.travel, scattered, left[0])
     return Reported(
         state,
         *left,
         partial(expand, structure.members, structure.system, rigid[0]),
         rigid[1][: len(structure.system.contacts.node)],
-        terms.penalty_effect(structure, sizes, state.u),
+        moves,
+        terms.penalty_effect(structure, sizes, moves),
         (reached, where),
         blind,
         shift > 0.0,
