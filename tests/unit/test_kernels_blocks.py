@@ -122,16 +122,20 @@ def test_scatter_is_the_transpose_of_gather(seed):
     assert (force * w).sum() == pytest.approx((r * p).sum(), rel=1e-13)
 
 
-def test_shares_of_end_forces_arrive_at_both_ends():
+@pytest.mark.parametrize("bent", [False, True])
+def test_shares_of_end_forces_arrive_at_both_ends(bent):
+    rng = np.random.default_rng(2)
     ends = np.array([[0, 1], [1, 2], [2, 0]], np.int32)
-    f = np.arange(36.0).reshape(3, 2, 6)
+    f, d, shares = rng.normal(size=(3, 2, 6)), rng.normal(size=(3, 3)), (1.0, -2.0, 0.5)
     r = np.ones((3, 6))
-    kernels.add_ends(ends, np.array([1.0, -2.0, 0.5]), f, r)
+    kernels.add_ends(ends, np.array(shares), d, bent, f, r)
     want = np.ones((3, 6))
-    for share, pair, own in zip((1.0, -2.0, 0.5), ends, f, strict=True):
+    for share, pair, own, arm in zip(shares, ends, f, d, strict=True):
         want[pair[0]] += share * own[0]
         want[pair[1]] += share * own[1]
-    assert np.array_equal(r, want)
+        if bent:
+            want[pair[0], 3:] += share * np.cross(arm * (1.0, -0.75, -0.5), own[1, :3])
+    assert np.allclose(r, want, rtol=1e-14, atol=1e-14)
 
 
 @pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])

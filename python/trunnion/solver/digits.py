@@ -87,13 +87,18 @@ def scatter_input(
 
     Every member's end forces are changed as a change of its stiffness by one part would do (rigid
     motion makes no force, so none is made of it), and so are those that would hold back its free
-    deformation, and the loads at nodes.
+    deformation, the moments of its forces about its base (as its direction is rounded), the
+    forces of supports and the loads at nodes.
     """
+    members = structure.members
     load = _scattered(point.u.size, 2).reshape(-1, 6) * forcing.nodal
     for start, at in enumerate((point, Point.zero(structure.n_node))):
         end = structure.member_forces(at, forcing, np.zeros_like(load))
         if len(end):
-            kernels.add_ends(structure.members.ends, _scattered(len(end), start), end, load)
+            signs = _scattered(len(end), start)
+            kernels.add_ends(members.ends, signs, members.d, at is point, end, load)
+    pushed = _scattered(len(response.reaction), 3)[:, None] * response.reaction
+    kernels.scatter(structure.at, pushed, load)
     load[structure.absent] = 0.0
     p = structure.solve(load)
     loss = _loss(structure, load, p)
