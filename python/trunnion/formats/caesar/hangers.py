@@ -51,8 +51,12 @@ class Hangers:
     def _designed(self, h: HangerData, label: str, cnode: str | None, n: int, place: Place) -> None:
         """Add a hanger that the program selects."""
         if h.rate or h.hot_load:
-            text = "hanger with a rate or an operating load, but no cold load; designed anew"
+            given = "a rate" if h.rate else f"an operating load of {h.hot_load:.6g} N"
+            text = f"hanger with {given}, but no cold load; designed anew, for the weight found"
             self.findings.leave_out(h.line, f"node {h.node}", text)
+        if h.space:
+            text = "springs are selected without regard to the space available for hangers"
+            self.findings.assume(text, h.line)
         method = "COLD" if h.cold_design else "HOT"
         variation = h.variation / 100.0
         known = h.table in ANVIL
