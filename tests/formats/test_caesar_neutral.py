@@ -359,6 +359,31 @@ def test_cnodes_tie_nodes_and_place_parts():
     ]
 
 
+def test_supports_may_stand_on_a_node_that_is_only_a_cnode():
+    # a rest with a gap of 1 mm on a column of 1e6 N/m: both carry the same, the column yields
+    c = job()
+    column = [slot(120, 3, k=1e4, cosines=Y), slot(120, 2), slot(120, 4)]
+    rest = slot(20, RESTING, cosines=Y, cnode=120, gap=1.0)
+    c.add(10, 20, dx=6000.0, t1=0.0, t2=0.0, RESTRANT=[slot(10, ANC), rest, *column])
+    results = trunnion.solve(model_of(c))
+    load = results["SUS"].supports["20"]["fy"]
+    assert results["SUS"].supports["120"]["fy"] == pytest.approx(load, rel=1e-9)
+    assert results["SUS"].displacements["20"]["uy"] == pytest.approx(-1e-3 - load / 1e6, rel=1e-4)
+    c = job()
+    c.add(10, 20, dx=6000.0, RESTRANT=[slot(10, ANC), slot(20, RESTING, cnode=7), slot(7, GUI)])
+    assert "node 7: GUI where no element has a length" in " ".join(problems_of(c))
+
+
+def test_a_cnode_that_nothing_holds_is_named_and_taken_to_ground():
+    c = job()
+    c.add(10, 20, dx=6000.0, RESTRANT=[slot(10, ANC), slot(20, RESTING, cosines=Y, cnode=900)])
+    c.hangers = [{"node": 20, "k": 100.0, "cold": 4000.0, "cnode": 901}]
+    found = problems_of(c)
+    for said in ("restraint +Y with CNODE 900, which no element", "hanger with CNODE 901"):
+        assert any(said in text for text in found)
+    assert all(s.cnode is None for s in model_of(c, permissive=True).supports)
+
+
 def test_coordinates_place_disconnected_parts():
     c = job()
     c.coords = [(30, 0.0, 1000.0, 5000.0)]

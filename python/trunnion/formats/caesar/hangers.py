@@ -35,7 +35,7 @@ class Hangers:
         if label is None:
             self.findings.leave_out(h.line, name, "hanger at a node that no element has")
             return
-        cnode = None if not h.cnode else self.labels.node(h.cnode) or str(h.cnode)
+        cnode = self.labels.cnode(h.cnode, h.line, "hanger")
         n = max(1, h.number)  # the program multiplies rate and load by the number of hangers
         load = n * (h.constant or h.cold_load)
         line = self.job.elements[self.labels.at[h.node][0]].line if h.node in self.labels.at else 0
