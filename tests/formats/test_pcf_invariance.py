@@ -1,4 +1,4 @@
-"""What a PCF does not mean changes no load: order, unit of length, place and bearing of a plant.
+"""What a PCF does not mean changes no load: order, unit of length, place, bearing of a plant."""
 
 """
 
