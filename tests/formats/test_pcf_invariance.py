@@ -1,7 +1,5 @@
 """What a PCF does not mean changes no load: order, unit of length, place, bearing of a plant."""
 
-"""
-
 import random
 import re
 from math import cos, radians, sin
