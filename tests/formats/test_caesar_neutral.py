@@ -628,7 +628,26 @@ def test_the_load_and_the_space_that_a_user_gives_a_hanger_are_named():
     assert any("space available" in a.text for a in result.assumed)
 
 
-def test_strains_and_offsets_of_a_bend_itself_are_named():
+def test_expansions_instead_of_temperatures_move_the_pipe_by_just_that_much():
+    # 10-20 has expansions in T1 and T2, 20-30 temperatures: A106 B expands by 1.76e-3 to 170 C
+    c = job()
+    c.add(10, 20, dx=6000.0, t1=0.002, t2=-0.0005, p1=0.0, p2=0.0, RESTRANT=[slot(10, ANC)])
+    c.add(20, 30, dx=6000.0, p1=0.0, p2=0.0)
+    results = trunnion.solve(model_of(c))
+    hot, cold = (results[case].displacements for case in ("OPE1", "OPE2"))
+    assert hot["20"]["ux"] == pytest.approx(6.0 * 0.002, rel=1e-9)
+    assert cold["20"]["ux"] == pytest.approx(-6.0 * 0.0005, rel=1e-9)
+    assert hot["30"]["ux"] - hot["20"]["ux"] == pytest.approx(6.0 * 1.76e-3, rel=0.02)
+
+
+def test_a_wall_that_nobody_makes_is_reported():
+    c = job()
+    c.add(10, 20, dx=6000.0, wall=0.01, RESTRANT=[slot(10, ANC)])
+    said = " ".join(a.text for a in imported(c).assumed)
+    assert "a wall of 0.01 mm at an OD of 273.05 mm looks like a stand-in" in said
+
+
+def test_strains_beside_temperatures_and_offsets_of_a_bend_itself_are_named():
     c = job()
     off = {"OFFSETS": (0.0, 0.0, 0.0, 0.0, 100.0, 0.0)}
     c.add(10, 20, dx=1000.0, RESTRANT=[slot(10, ANC)])

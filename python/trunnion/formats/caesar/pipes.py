@@ -6,7 +6,7 @@ from trunnion.formats.caesar.bendfactors import factor_of
 from trunnion.formats.caesar.bodies import Bodies
 from trunnion.formats.caesar.geometry import Labels, size
 from trunnion.formats.caesar.job import Element, Job, Vec
-from trunnion.formats.caesar.properties import Properties
+from trunnion.formats.caesar.properties import Properties, coefficient
 from trunnion.formats.caesar.tees import uses_b31j
 from trunnion.formats.findings import Findings
 from trunnion.model import Bend, Model, Pipe, Support
@@ -61,8 +61,8 @@ class Pipes:
         """Tell what of an element has no counterpart."""
         leave = self.findings.leave_out
         strains = [n + 1 for n, x in enumerate(e.strain) if x is not None]
-        if strains:
-            text = f"T{strains[0]} is an expansion (length by length), not a temperature"
+        if strains and coefficient(e) is None:
+            text = f"T{strains[0]} is an expansion (length by length), others are temperatures"
             leave(e.line, name, f"{text}; taken as ambient temperature")
 
     def _tie(self, i: int, e: Element) -> None:
