@@ -438,6 +438,14 @@ def test_a_rigid_at_a_bend_gets_a_pipe_for_its_tangent():
     assert rigid.delta == pytest.approx((0.0, 0.0, 0.5))
 
 
+def test_the_tangent_before_a_rigid_carries_the_uniform_load_of_its_element():
+    c = job()
+    load = [0.0, -3.0, *[0.0] * 34]
+    c.add(10, 20, dx=2000.0, RESTRANT=[slot(10, ANC)], BEND={"radius": 381.0}, UNIFORM=load)
+    c.add(20, 30, dz=881.0, RIGID=(1000.0, 2))
+    assert [[q.load for q in pipe.uniform] for pipe in model_of(c).pipes] == [[(0, -300, 0)]] * 3
+
+
 def test_branches_at_a_bend_leave_from_its_points():
     c = job()
     c.add(
@@ -668,6 +676,24 @@ def test_an_offset_at_the_other_end_of_a_bend_is_a_stiff_link_without_weight():
     assert (link.start, link.end, link.delta) == ("20", "41", (0.0, 0.0, 0.1365))
     assert (link.rigid, link.weight) == (True, 0.0)
     assert (pipe.start, pipe.end, pipe.delta) == ("41", "30", (0.0, 0.0, 1.8635))
+
+
+@pytest.mark.parametrize(
+    "body",
+    [{"RIGID": (2100.0, 1)}, {"REDUCERS": (219.1, 8.18)}, {"EXPJT": (1e3, 1e3, 0.0, 0.0, 0.0)}],
+)
+def test_the_offset_of_a_body_is_a_stiff_link_without_weight(body):
+    c = job()
+    c.add(10, 20, dx=1000.0, RESTRANT=[slot(10, ANC)])
+    arms = (0.0, 0.0, 136.5, 0.0, 200.0, 0.0)
+    c.add(20, 30, dz=2000.0, OFFSETS=arms, **body)
+    c.add(30, 40, dz=500.0, od=219.1, wall=8.18)
+    _, first, made, last, _ = model_of(c).pipes
+    assert (first.start, first.end, first.delta) == ("20", "41", (0.0, 0.0, 0.1365))
+    assert (made.start, made.end, made.delta) == ("41", "42", (0.0, 0.2, 1.8635))
+    assert (last.start, last.end, last.delta) == ("42", "30", (0.0, -0.2, 0.0))
+    assert [link.weight for link in (first, last)] == [0.0, 0.0]
+    assert made.rigid or made.reducer or made.joint
 
 
 def bent(**bend):

@@ -96,6 +96,7 @@ class Pipes:
             else:
                 weld = f"{e.start}T"
                 tangent = replace(made, end=weld, delta=_times(part, e.delta))
+                tangent = replace(tangent, uniform=self.bodies.uniforms[i])
                 self._append(i, e, tangent, "tangent of the bend before the rigid")
                 made = replace(made, start=weld, delta=_times(1.0 - part, e.delta))
         self._append(i, e, self.bodies.dressed(i, e, made))
