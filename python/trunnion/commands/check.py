@@ -27,7 +27,7 @@ def check(deck: Path, permissive: bool, options: "Options | None") -> int:
 
     with shown(f"checking {deck.name}"):
         read = read_model(deck, permissive=permissive, options=options)
-        with telling(read.origin):
+        with telling(read.origin, deck.name):
             model = with_cases(read)
             system = build_system(model)
             sets = load_sets(model, system)

@@ -115,7 +115,7 @@ def solve_model(model: "Model", spread: int = 0, watch: "Watch | None" = None) -
     from trunnion.origin import telling
 
     asked: dict[str, Any] = {"spread": spread, "watch": watch}
-    with telling(model.origin):
+    with telling(model.origin, "" if model.file is None else model.file.name):
         results: Results = trunnion.solve(model, **{key: x for key, x in asked.items() if x})
     return results
 

@@ -63,9 +63,9 @@ def study(
     refuse_unwritable(folder)
     with shown(f"reading {deck.name}"):
         model = read_model(deck, permissive=permissive, options=options)
-    with telling(model.origin):
+    with telling(model.origin, deck.name):
         total = count(read_axes(with_cases(model), vary))
-    with telling(model.origin), progress("variants", total) as counter:
+    with telling(model.origin, deck.name), progress("variants", total) as counter:
         done = solve_study(
             model,
             vary,

@@ -14,6 +14,7 @@ from trunnion.arrays import OPEN, CaseResult, Results
 from trunnion.frozen import frozen
 from trunnion.model import Model
 from trunnion.origin import origin_lines
+from trunnion.report.causes import told_cause
 from trunnion.report.columns import PAGE
 from trunnion.report.frozen import frozen_warning
 from trunnion.report.loops import cycle_lines, cycle_warnings
@@ -21,7 +22,7 @@ from trunnion.report.modes import mode_lines, mode_warnings
 from trunnion.report.screen_table import case_table
 from trunnion.report.summary import Largest, largest_of
 from trunnion.report.units import ReportUnits, report_units
-from trunnion.results.supports import card_ids, card_levels, cause_of, is_good, lifted_rests
+from trunnion.results.supports import card_ids, card_levels, is_good, lifted_rests
 
 MOST, LOW = 2, 20  # lines of a message on a terminal; one where this has fewer than LOW
 LABEL = 15  # characters before a verdict
@@ -68,12 +69,12 @@ def screen(results: Results, model: Model, room: Room = SCREEN) -> tuple[bool, s
     broken = [name for name, cycle in results.cycles.items() if cycle.cause]
     order = bad + [name for name in cases if name not in bad]
     head, rows = case_table([cases[name] for name in order], units, room.columns)
-    lines = [mode.strip() for mode in mode_lines(results) + cycle_lines(results)]
+    lines = [mode.strip() for mode in mode_lines(results) + cycle_lines(results, units)]
     if results.spreads:
         from trunnion.report.spread import spread_lines
 
         lines += [line.strip() for line in spread_lines(results, units)]
-    causes = [f"{name}: {cause_of(cases[name])}" for name in bad]
+    causes = [f"{name}: {told_cause(cases[name], units)}" for name in bad]
     warnings = [f"warning: {text}" for text in all_warnings(results, units)]
     source = [] if model.origin is None else origin_lines(model.origin)
     blocks = [
@@ -216,4 +217,4 @@ def all_warnings(results: Results, units: ReportUnits) -> list[str]:
     cases = results.cases.values()
     warnings += [f"{case.name}: {text}" for case in cases for text in case.warnings]
     warnings += [text for case in cases for text in frozen_warning(case, units)]
-    return warnings + mode_warnings(results) + cycle_warnings(results)
+    return warnings + mode_warnings(results) + cycle_warnings(results, units)

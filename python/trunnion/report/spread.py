@@ -5,6 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from trunnion.arrays import F8, CaseResult, Results, Spread, Spreading
+from trunnion.report.causes import in_units
 from trunnion.report.columns import Column, integers, numbers, section, table, words, wrapped
 from trunnion.report.units import ReportUnits
 from trunnion.results.supports import STATES, card_forces, card_levels
@@ -46,7 +47,7 @@ def verdict(spread: Spread, units: ReportUnits) -> str:
     if spread.unique:
         return f"{spread.unique}; spread 0"
     if spread.cause:
-        return f"nothing was tried: {spread.cause}"
+        return f"nothing was tried: {in_units(spread.cause, units)}"
     s = spread.starts
     good = sum(tried.answer is not None for tried in s.tried)
     many = len(s.answers)
@@ -93,7 +94,7 @@ def _shown(apart: F8, answers: Sequence[CaseResult], kind: int) -> F8:
 
 # ------------------------------------------------------------------ tables
 def _spreading(s: Spreading, title: str, units: ReportUnits) -> str:
-    text = section(title) + _tried(s) + _answers(s, units)
+    text = section(title) + _tried(s, units) + _answers(s, units)
     if s.supports is None or s.elements is None or not s.answers:
         return text
     system = s.answers[0].system
@@ -106,13 +107,14 @@ def _spreading(s: Spreading, title: str, units: ReportUnits) -> str:
     return text + _apart("SPREAD OF END FORCES", "ELEMENT", ends, elements, units)
 
 
-def _tried(s: Spreading) -> str:
+def _tried(s: Spreading, units: ReportUnits) -> str:
     found = [str(t.answer + 1) if t.answer is not None else "none" for t in s.tried]
+    why = [in_units(t.cause or "", units) for t in s.tried]
     return table(
         [
             words("TRIED", [t.what for t in s.tried], least=28),
             words("ANSWER", found),
-            words("NO CERTIFIED ANSWER BECAUSE", [t.cause or "" for t in s.tried], most=90),
+            words("NO CERTIFIED ANSWER BECAUSE", why, most=90),
         ]
     )
 

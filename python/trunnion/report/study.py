@@ -7,6 +7,7 @@ import numpy as np
 from trunnion.arrays import F8
 from trunnion.many.study import Study
 from trunnion.model import Model
+from trunnion.report.causes import in_units
 from trunnion.report.columns import (
     PAGE,
     Column,
@@ -32,7 +33,7 @@ def study_report(study: Study, model: Model) -> bytes:
     units = report_units(model.units)
     parts = ["TRUNNION   study of variants\n", f"{study.title or '(no title)'}\n"]
     parts += [chapter("1  WHAT VARIES"), _axes(study), wrapped(verdict(study))]
-    parts += [chapter("2  FAILURES"), *(_failures(study) or ["\n  none\n"])]
+    parts += [chapter("2  FAILURES"), *(_failures(study, units) or ["\n  none\n"])]
     parts.append(chapter("3  ENVELOPE OF LOADS ON RESTRAINTS"))
     parts += [_envelope(study, name, units) for name in study.cases]
     parts.append(chapter("4  VARIANTS"))
@@ -44,10 +45,11 @@ def study_report(study: Study, model: Model) -> bytes:
 
 def study_screen(study: Study, model: Model) -> str:
     """Print the largest loads with their variants, and the failures."""
+    units = report_units(model.units)
     lines = [study.title] if study.title else []
-    lines += [_largest(study, name, report_units(model.units)) for name in study.cases]
+    lines += [_largest(study, name, units) for name in study.cases]
     failures = study.failures
-    lines += [f"  {_told(study, *failure)}" for failure in failures[:SHOWN]]
+    lines += [f"  {_told(study, *failure, units)}" for failure in failures[:SHOWN]]
     if len(failures) > SHOWN:
         lines.append(f"  ... and {len(failures) - SHOWN} more failures in the report")
     lines.append(f"  {verdict(study)}")
@@ -79,12 +81,12 @@ def _axes(study: Study) -> str:
     return f"\n{text}"
 
 
-def _failures(study: Study) -> list[str]:
-    return [wrapped(_told(study, *failure)) for failure in study.failures]
+def _failures(study: Study, units: ReportUnits) -> list[str]:
+    return [wrapped(_told(study, *failure, units)) for failure in study.failures]
 
 
-def _told(study: Study, i: int, j: int, cause: str) -> str:
-    return f"variant {i + 1} ({study.names[i]}), {study.cases[j]}: {cause}"
+def _told(study: Study, i: int, j: int, cause: str, units: ReportUnits) -> str:
+    return f"variant {i + 1} ({study.names[i]}), {study.cases[j]}: {in_units(cause, units)}"
 
 
 # ------------------------------------------------------------------ envelope

@@ -9,8 +9,9 @@ from trunnion.arrays import F8, OPEN, CaseResult, Results, System
 from trunnion.certificate import LIMIT
 from trunnion.frozen import frozen
 from trunnion.report.balance import Balance, balance
+from trunnion.report.causes import told_cause
 from trunnion.report.units import ReportUnits
-from trunnion.results.supports import STATES, cause_of, is_good
+from trunnion.results.supports import STATES, is_good
 
 SUPPORTS = 40  # told of one case, the most restless
 ROWS = 200  # iterations of one support
@@ -78,7 +79,7 @@ def _story(case: CaseResult, units: ReportUnits) -> dict[str, object]:
         "case": case.name,
         "note": note,
         "force": units.force.unit,
-        **_verdict(case),
+        **_verdict(case, units),
         **_passes(case, balance(case), units),
         "supports": [
             {
@@ -92,10 +93,10 @@ def _story(case: CaseResult, units: ReportUnits) -> dict[str, object]:
     }
 
 
-def _verdict(case: CaseResult) -> dict[str, object]:
+def _verdict(case: CaseResult, units: ReportUnits) -> dict[str, object]:
     """Say whether the case converged: the worst item of its certificate and what is allowed."""
     good, found = is_good(case), case.certificate
-    text = f"NOT CONVERGED: {cause_of(case)}"
+    text = f"NOT CONVERGED: {told_cause(case, units)}"
     if good and found is not None:
         text = f"Converged and certified: worst item {found.worst:.1e} ({found.where}), "
         text += f"allowed {LIMIT:.1e}."

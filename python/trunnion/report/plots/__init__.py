@@ -61,7 +61,7 @@ def figures(results: Results, model: Model, stem: str) -> Iterator[tuple[str, Fi
     if results.modes is not None:
         yield "modes", mode_shapes(one, results.modes, title)
     if results.cases:
-        yield "convergence", convergence(one, results, title)
+        yield "convergence", convergence(one, results, units, title)
 
 
 def has_shape(name: str, results: Results, model: Model) -> bool:

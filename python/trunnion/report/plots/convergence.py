@@ -12,6 +12,7 @@ from trunnion.arrays import F8, CaseResult, Results
 from trunnion.certificate import LIMIT
 from trunnion.frozen import frozen
 from trunnion.report.balance import balance
+from trunnion.report.causes import told_cause
 from trunnion.report.plots.page import (
     EDGE,
     FOOT,
@@ -26,7 +27,8 @@ from trunnion.report.plots.page import (
 )  # fmt: skip
 from trunnion.report.plots.palette import GREY, INK, PALE, STATES
 from trunnion.report.plots.scene import Subject
-from trunnion.results.supports import cause_of, is_good
+from trunnion.report.units import ReportUnits
+from trunnion.results.supports import is_good
 
 PANELS = 9  # cases drawn on their own
 PANEL = 2.55  # height of a row of panels [in]
@@ -71,7 +73,7 @@ def phase_of(what: str) -> str:
     return next((key for key in PHASES if what.startswith(key)), what)
 
 
-def convergence(found: Subject, results: Results, title: str) -> Figure:
+def convergence(found: Subject, results: Results, units: ReportUnits, title: str) -> Figure:
     """Draw a panel a case that was iterated, and the certificates of all."""
     cases = list(results.cases.values())
     iterated = [case for case in cases if case.history]
@@ -84,7 +86,7 @@ def convergence(found: Subject, results: Results, title: str) -> Figure:
     top = height - TOP
     if chosen:
         top = _panels(figure, chosen, top)
-    _certificates(figure, listed, len(cases), top - 0.05, below)
+    _certificates(figure, listed, len(cases), units, top - 0.05, below)
     return figure
 
 
@@ -217,7 +219,12 @@ def _phases(figure: Figure, used: Sequence[str], y: float) -> None:
 
 
 def _certificates(
-    figure: Figure, cases: Sequence[CaseResult], total: int, top: float, height: float
+    figure: Figure,
+    cases: Sequence[CaseResult],
+    total: int,
+    units: ReportUnits,
+    top: float,
+    height: float,
 ) -> None:
     """Draw every item of every certificate as a dot in the row of its case."""
     left = EDGE + 1.5
@@ -229,7 +236,7 @@ def _certificates(
         axes.axhline(i, color="#eef1f4", lw=0.8, zorder=0)
         found = case.certificate
         if not is_good(case) or found is None:
-            text = fitted(f"NOT CONVERGED: {cause_of(case)}", 72.0 * WORST - 12.0, SMALL)
+            text = fitted(f"NOT CONVERGED: {told_cause(case, units)}", 72.0 * WORST - 12.0, SMALL)
             axes.text(
                 1.015, i, text, transform=axes.get_yaxis_transform(), fontsize=SMALL,
                 va="center", color=STATES["slip"].colour,
