@@ -480,6 +480,16 @@ def test_a_node_shows_the_numbers_of_the_file(home, capsys):
     assert any(line.split()[1:2] == ["to"] for line in out.splitlines())
 
 
+def test_directions_that_differ_have_their_own_states(home, capsys):
+    assert leave("show", "a.json", "--case", "OPE", "--node", "20") == 0
+    case = json.loads((home / "a.json").read_bytes())["cases"]["OPE"]
+    rest, guide = next(s for s in case["supports"] if s["id"] == "20")["contacts"]
+    assert (rest["dir"], rest["state"], guide["dir"], guide["state"]) == (
+        "+Y", "slip", "GUIDE", "open"
+    )  # fmt: skip
+    assert "20 +Y GUIDE  slip +Y, open GUIDE " in capsys.readouterr().out
+
+
 def test_a_bend_shows_the_ends_at_its_far_point(home, capsys):
     assert leave("show", "a.json", "--case", "OPE", "--node", "30") == 0
     assert capsys.readouterr().out.count("30F-40 from") == 1

@@ -1,12 +1,12 @@
 """The summary of a batch: a table for the screen, JSON and CSV for programs."""
 
-import csv
-import io
 from collections.abc import Sequence
 
 from trunnion.many.records import Entry, summary_of
 from trunnion.report.columns import integers, table, words
+from trunnion.report.csv import csv_bytes
 from trunnion.report.encode import dump
+from trunnion.report.sheets import Cell
 
 CAUSES = 6  # of a deck on the screen
 
@@ -20,17 +20,16 @@ def summary_json(entries: Sequence[Entry]) -> bytes:
 
 def summary_csv(entries: Sequence[Entry]) -> bytes:
     """Write one row a case; a deck without cases has one of its own."""
-    out = io.StringIO()
-    writer = csv.writer(out, lineterminator="\n")
-    writer.writerow(["deck", "status", "case", "kind", "converged", "certificate", "cause"])
+    rows: list[list[Cell]] = [
+        ["deck", "status", "case", "kind", "converged", "certificate", "cause"]
+    ]
     for e in entries:
         if not e.cases:
-            writer.writerow([e.deck, e.status, "", "", "", "", "; ".join(e.causes)])
+            rows.append([e.deck, e.status, "", "", "", "", "; ".join(e.causes)])
         for c in e.cases:
             worst = "" if c.worst is None else f"{c.worst:.3g}"
-            row = [e.deck, e.status, c.name, c.kind, int(c.converged), worst, c.cause or ""]
-            writer.writerow(row)
-    return out.getvalue().encode()
+            rows.append([e.deck, e.status, c.name, c.kind, int(c.converged), worst, c.cause or ""])
+    return csv_bytes(rows)
 
 
 def summary_screen(entries: Sequence[Entry]) -> str:

@@ -8,6 +8,8 @@ from typing import Any
 
 import click
 
+from trunnion.results.supports import by_state
+
 Case = Mapping[str, Any]
 FORCES = ("FX [N]", "FY [N]", "FZ [N]", "MX [N m]", "MY [N m]", "MZ [N m]")
 MOVES = ("DX [mm]", "DY [mm]", "DZ [mm]", "RX [deg]", "RY [deg]", "RZ [deg]")
@@ -93,12 +95,18 @@ def _supports(supports: Iterable[Case]) -> str:
         [
             s["id"],
             str(s.get("name") or s.get("kind") or ""),
-            str(s.get("state") or "-"),
+            _state(s),
             *_forces(s["force"] + s["moment"]),
         ]
         for s in supports
     ]
     return table(("ID", "SUPPORT", "STATE", *FORCES), rows)
+
+
+def _state(support: Case) -> str:
+    """State of a support, or of its directions where they differ."""
+    pairs = [(str(c.get("dir")), str(c.get("state"))) for c in support.get("contacts") or ()]
+    return by_state(pairs) or str(support.get("state") or "-")
 
 
 def _forces(row: Sequence[float]) -> list[str]:
