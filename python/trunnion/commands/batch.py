@@ -16,6 +16,7 @@ from trunnion.commands.shared import (
     further_options,
     refuse_missing,
     refuse_unwritable,
+    room,
     say,
 )
 
@@ -84,7 +85,7 @@ def batch(
         except KeyboardInterrupt:
             click.echo("interrupted: finished decks stay, the same command goes on", err=True)
             return INTERRUPTED
-    say(summary_screen(done.entries))
+    say(summary_screen(done.entries, room(0)))
     say(f"wrote {folder / SUMMARY}.json  {folder / SUMMARY}.csv")
     return done.code
 

@@ -133,6 +133,7 @@ def _both(
 def _judge(own: dict[str, Any], found: dict[str, Any], name: str, allowed: float) -> bool:
     """Print how far the other program is away; tell whether that is near enough."""
     from trunnion.exports.agreement import agrees, differences, laws, table, tried, unanswered
+    from trunnion.report.counts import counted
 
     rows, held, without = differences(own, found), laws(found), unanswered(own, found)
     if rows:
@@ -146,6 +147,6 @@ def _judge(own: dict[str, Any], found: dict[str, Any], name: str, allowed: float
         say(f"{case}: not confirmed: {why}")
     good = agrees(rows, held, allowed) and not without
     count = len({row.case for row in rows})
-    verdict = f"{count} case{'s' * (count > 1)} confirmed" if good else "NOT confirmed"
+    verdict = f"{counted(count, 'case')} confirmed" if good else "NOT confirmed"
     say(f"{verdict} by {found['program']}, to {allowed:g} of the largest value of each kind")
     return good

@@ -88,12 +88,16 @@ def _wrote(names: list[str]) -> list[str]:
 
 def _shown(files: list[Path], folder: Path) -> list[str]:
     """Name the files; those in a folder of their own by that folder, pictures together."""
+    from trunnion.report.counts import counted
+
     inner = [file.parent for file in files if file.parent != folder]
     pictures = [file for file in files if file.suffix == ".png"]
     alone = [str(file) for file in files if file.parent == folder and file not in pictures]
     if pictures:
-        alone.append(f"{folder / files[0].stem}.*.png ({len(pictures)} pictures)")
-    return alone + [f"{place}/ ({inner.count(place)} files)" for place in dict.fromkeys(inner)]
+        alone.append(f"{folder / files[0].stem}.*.png ({counted(len(pictures), 'picture')})")
+    return alone + [
+        f"{place}/ ({counted(inner.count(place), 'file')})" for place in dict.fromkeys(inner)
+    ]
 
 
 def _check_names(deck: Path, also: list[str]) -> None:

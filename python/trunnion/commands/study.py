@@ -15,6 +15,7 @@ from trunnion.commands.shared import (
     beside,
     read_model,
     refuse_unwritable,
+    room,
     say,
 )
 
@@ -77,11 +78,11 @@ def study(
         )
     files = {
         folder / f"{deck.stem}-study.out": study_report(done, model),
-        folder / f"{deck.stem}-study.json": study_json(done),
+        folder / f"{deck.stem}-study.json": study_json(done, model.origin),
         folder / f"{deck.stem}-study.csv": envelope_csv(done),
         folder / f"{deck.stem}-variants.csv": variants_csv(done),
     }
     write_files(files)
-    say(study_screen(done, model))
+    say(study_screen(done, model, room(0)))
     say("wrote " + "  ".join(str(file) for file in files))
     return FAILED if done.failures else SOLVED

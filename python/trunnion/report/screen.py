@@ -16,6 +16,7 @@ from trunnion.model import Model
 from trunnion.origin import origin_lines
 from trunnion.report.causes import told_cause
 from trunnion.report.columns import PAGE
+from trunnion.report.counts import counted
 from trunnion.report.frozen import frozen_warning
 from trunnion.report.loops import cycle_lines, cycle_warnings
 from trunnion.report.modes import mode_lines, mode_warnings
@@ -79,13 +80,13 @@ def screen(results: Results, model: Model, room: Room = SCREEN) -> tuple[bool, s
     source = [] if model.origin is None else origin_lines(model.origin)
     blocks = [
         Block([[_title(results, room)]] if results.title else []),
-        Block(_messages(source, room), 2, "of these"),
+        Block(messages(source, room), 2, "of these"),
         Block([[head]]),
         Block([[row] for row in rows], 3, "cases"),
         Block(_verdicts(results, bad, units, room), 3, "lines"),
-        Block(_messages(lines, room), 1, "lines"),
-        Block(_messages(causes, room, fg="red"), 2, "causes"),
-        Block(_messages(warnings, room, fg="yellow"), 2, "warnings"),
+        Block(messages(lines, room), 1, "lines"),
+        Block(messages(causes, room, fg="red"), 2, "causes"),
+        Block(messages(warnings, room, fg="yellow"), 2, "warnings"),
     ]
     _fit(blocks, room)
     return not bad and not broken, "\n".join(line for block in blocks for line in block.lines())
@@ -113,7 +114,7 @@ def _title(results: Results, room: Room) -> str:
     return click.style(text, bold=True)
 
 
-def _messages(texts: Sequence[str], room: Room, fg: str | None = None) -> list[list[str]]:
+def messages(texts: Sequence[str], room: Room, fg: str | None = None) -> list[list[str]]:
     """Break messages at the width of a terminal, in one line or two; a pipe gets them whole."""
     found = []
     for text in texts:
@@ -160,7 +161,7 @@ def _certificate(cases: Sequence[CaseResult], bad: list[str]) -> str:
     if not n:
         return "no cases"
     if bad:
-        return f"{len(bad)} of {n} case{'s' * (n > 1)} NOT certified: no numbers, causes below"
+        return f"{len(bad)} of {counted(n, 'case')} NOT certified: no numbers, causes below"
     worst, where, name = max(
         (c.certificate.worst, c.certificate.where, c.name) for c in cases if c.certificate
     )
@@ -181,17 +182,17 @@ def _worst_support(cases: Sequence[CaseResult], units: ReportUnits) -> str:
 
 def _open(cases: Sequence[CaseResult]) -> str:
     """Name the supports that are open in the case that has most of them."""
-    counted: list[tuple[CaseResult, list[int]]] = []
+    opened: list[tuple[CaseResult, list[int]]] = []
     for case in cases:
         if case.gathered is None and case.kind == "case":
             levels = card_levels(case).tolist()
-            counted.append((case, [i for i, level in enumerate(levels) if level == OPEN]))
-    if not any(at for _, at in counted):
+            opened.append((case, [i for i, level in enumerate(levels) if level == OPEN]))
+    if not any(at for _, at in opened):
         return ""
-    case, at = max(counted, key=lambda entry: len(entry[1]))
+    case, at = max(opened, key=lambda entry: len(entry[1]))
     ids = card_ids(case.system.cards)
     named = " ".join(ids[i] for i in at[:NAMED]) + (" ..." if len(at) > NAMED else "")
-    return f"{len(at)} of {len(ids)} supports in {case.name}: {named}"
+    return f"{len(at)} of {counted(len(ids), 'support')} in {case.name}: {named}"
 
 
 def _lifted(cases: Sequence[CaseResult]) -> str:

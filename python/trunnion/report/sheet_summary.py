@@ -6,6 +6,7 @@ from trunnion.arrays import CaseResult, Results
 from trunnion.model import Model
 from trunnion.origin import origin_lines
 from trunnion.report.causes import told_cause
+from trunnion.report.counts import counted
 from trunnion.report.screen import all_warnings
 from trunnion.report.sheets import Cell, Column, Sheet, amounts
 from trunnion.report.summary import Largest, largest_of
@@ -41,8 +42,8 @@ def summary(results: Results, units: ReportUnits) -> Sheet:
     if cases or results.base is not None:
         system = results.system
         counts = (
-            f"{len(system.labels)} nodes, {len(system.parts)} elements, "
-            f"{len(system.cards)} restraints; every certificate item is at most 1e-9"
+            f"{counted(len(system.labels), 'node')}, {counted(len(system.parts), 'element')}, "
+            f"{counted(len(system.cards), 'restraint')}; every certificate item is at most 1e-9"
         )
     return Sheet("summary", "Summary of cases", counts, columns)
 

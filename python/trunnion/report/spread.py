@@ -7,6 +7,7 @@ import numpy as np
 from trunnion.arrays import F8, CaseResult, Results, Spread, Spreading
 from trunnion.report.causes import in_units
 from trunnion.report.columns import Column, integers, numbers, section, table, words, wrapped
+from trunnion.report.counts import counted
 from trunnion.report.units import ReportUnits
 from trunnion.results.supports import STATES, card_forces, card_levels
 
@@ -50,8 +51,8 @@ def verdict(spread: Spread, units: ReportUnits) -> str:
         return f"nothing was tried: {in_units(spread.cause, units)}"
     s = spread.starts
     good = sum(tried.answer is not None for tried in s.tried)
-    many = len(s.answers)
-    text = f"{many} answer{'s' * (many != 1)}, certified from {good} of {len(s.tried)} starts"
+    many, starts = counted(len(s.answers), "answer"), counted(len(s.tried), "start")
+    text = f"{many}, certified from {good} of {starts}"
     text += f"; {_largest(s, units)}"
     if spread.orders is not None and spread.orders.tried:
         text += f"; over {len(spread.orders.tried)} load orders {_largest(spread.orders, units)}"

@@ -6,16 +6,21 @@ import numpy as np
 
 from trunnion.arrays import I4
 from trunnion.many.study import Study
+from trunnion.origin import Origin
 from trunnion.report.csv import csv_bytes
 from trunnion.report.encode import dump, finite, lines, listing, records, rows, words
+from trunnion.report.origin import origin_entry
 from trunnion.report.sheets import Cell
 from trunnion.results.supports import STATES, card_ids
 
 COMPONENTS = ("FX", "FY", "FZ", "MX", "MY", "MZ")
 
 
-def study_json(study: Study) -> bytes:
-    """Write the whole file: axes, variants with states and certificates, envelopes."""
+def study_json(study: Study, origin: Origin | None = None) -> bytes:
+    """Write the whole file: axes, variants with states and certificates, envelopes.
+
+    origin : the foreign file that the model came from, and what of it is not in the numbers.
+    """
     axes = (
         dump({"name": a.name, "values": list(a.values), "texts": list(a.texts)}) for a in study.axes
     )
@@ -28,6 +33,8 @@ def study_json(study: Study) -> bytes:
         "envelope": lines({name: _envelope(study, name) for name in study.cases}),
         "work": dump(study.work),
     }
+    if origin is not None:
+        parts["origin"] = origin_entry(origin)
     return (lines(parts) + "\n").encode()
 
 

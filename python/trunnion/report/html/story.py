@@ -10,6 +10,7 @@ from trunnion.certificate import LIMIT
 from trunnion.frozen import frozen
 from trunnion.report.balance import Balance, balance
 from trunnion.report.causes import told_cause
+from trunnion.report.counts import counted
 from trunnion.report.units import ReportUnits
 from trunnion.results.supports import STATES, is_good
 
@@ -70,9 +71,11 @@ def _story(case: CaseResult, units: ReportUnits) -> dict[str, object]:
     found = course(case)
     changes = {i: _changes(found.level[:, i]) for i in range(found.level.shape[1])}
     restless = sorted((i for i in changes if changes[i]), key=lambda i: (-len(changes[i]), i))
-    note = f"{len(restless)} of {len(case.system.cards)} supports changed state"
+    note = f"{len(restless)} of {counted(len(case.system.cards), 'support')} changed state"
     if kept < len(case.history):
-        note += f"; supports are told of the first {kept} of {len(case.history)} iterations"
+        note += (
+            f"; supports are told of the first {kept} of {counted(len(case.history), 'iteration')}"
+        )
     if len(restless) > SUPPORTS:
         note += f"; the {SUPPORTS} that did so most often are told"
     return {

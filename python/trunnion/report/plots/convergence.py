@@ -13,6 +13,7 @@ from trunnion.certificate import LIMIT
 from trunnion.frozen import frozen
 from trunnion.report.balance import balance
 from trunnion.report.causes import told_cause
+from trunnion.report.counts import counted
 from trunnion.report.plots.page import (
     EDGE,
     FOOT,
@@ -107,7 +108,7 @@ def _headline(
     cases: Sequence[CaseResult], iterated: Sequence[CaseResult], chosen: Sequence[CaseResult]
 ) -> str:
     bad = [case.name for case in cases if not is_good(case)]
-    text = f"Convergence: {len(iterated)} of {len(cases)} cases were iterated"
+    text = f"Convergence: {len(iterated)} of {counted(len(cases), 'case')} iterated"
     if len(chosen) < len(iterated):
         text += f", the {len(chosen)} of most iterations are drawn"
     return text + (f"; NOT CONVERGED: {', '.join(bad)}" if bad else "; all cases are certified")
@@ -157,7 +158,7 @@ def _panel(axes: Axes, one: Story, limits: tuple[float, float]) -> None:
         axes.plot(n[at], shown[at], mark, color=colour, ms=small, mew=0, zorder=3, gid=phase)
     axes.axhline(LIMIT, color=GREY, lw=0.9, ls="--", zorder=2, gid="limit")
     good, found = is_good(one.case), one.case.certificate
-    name = fitted(f"{one.case.name}: {len(n)} iterations", 150.0, NORMAL, bold=True)
+    name = fitted(f"{one.case.name}: {counted(len(n), 'iteration')}", 150.0, NORMAL, bold=True)
     axes.set_title(name, loc="left", fontsize=NORMAL, fontweight="bold", pad=5)
     if good and found is not None:
         end = len(n) + max(1.0, 0.03 * len(n))

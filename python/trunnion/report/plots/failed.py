@@ -7,6 +7,7 @@ from matplotlib.figure import Figure
 
 from trunnion.arrays import CaseResult
 from trunnion.report.causes import told_cause
+from trunnion.report.counts import counted
 from trunnion.report.plots import legend
 from trunnion.report.plots.drawing import length_bar, triad
 from trunnion.report.plots.glyphs import glyphs, stand
@@ -53,7 +54,7 @@ def failed(found: Subject, case: CaseResult, units: ReportUnits, title: str) -> 
     y = legend.lines(figure, x, y - 0.35, PANEL, wrap(told_cause(case, units), COLUMNS)[:8]) - 0.15
     if restless:
         y = legend.heading(figure, x, y, f"CHANGED STATE IN THE LAST {LAST} ITERATIONS")
-        rows = [f"{name}: {n} times" for name, n in restless.most_common(NAMED)]
+        rows = [f"{name}: {counted(n, 'time')}" for name, n in restless.most_common(NAMED)]
         more = [f"and {len(restless) - NAMED} more"] if len(restless) > NAMED else []
         legend.lines(figure, x, y, PANEL, rows + more)
     return figure
