@@ -18,6 +18,7 @@ from trunnion.commands.shared import (
     refuse_unwritable,
     room,
     say,
+    wrote,
 )
 
 if TYPE_CHECKING:
@@ -86,7 +87,7 @@ def batch(
             click.echo("interrupted: finished decks stay, the same command goes on", err=True)
             return INTERRUPTED
     say(summary_screen(done.entries, room(0)))
-    say(f"wrote {folder / SUMMARY}.json  {folder / SUMMARY}.csv")
+    say("\n".join(wrote([f"{folder / SUMMARY}.json", f"{folder / SUMMARY}.csv"])))
     return done.code
 
 

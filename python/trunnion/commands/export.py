@@ -16,6 +16,7 @@ from trunnion.commands.shared import (
     refuse_unwritable,
     say,
     solve_model,
+    wrote,
 )
 
 if TYPE_CHECKING:
@@ -70,7 +71,7 @@ def export(
     write_files({folder / name: content for name, content in made.items()})
     for line in said(job):
         say(line)
-    say("wrote " + "  ".join(str(folder / name) for name in made))
+    say("\n".join(wrote([folder / name for name in made])))
     return SOLVED
 
 

@@ -21,6 +21,7 @@ from trunnion.commands.shared import (
     room,
     say,
     solve_model,
+    wrote,
 )
 
 if TYPE_CHECKING:
@@ -67,23 +68,13 @@ def run(
 
         files = write_reports(results, model, folder, deck.stem, also=also, watch=watch)
     written = perf_counter()
-    below = _wrote(_shown(files, folder))
+    below = wrote(_shown(files, folder))
     if timings:
         parts = {"read": read - start, "solve": solved - read, "write": written - solved}
         below.append(", ".join(f"{name} {seconds:.3f} s" for name, seconds in parts.items()))
     good, text = screen(results, model, room(len(below) + 1))  # one for the prompt
     say("\n".join([text, *below]))
     return SOLVED if good else FAILED
-
-
-def _wrote(names: list[str]) -> list[str]:
-    """Say what was written, in lines of a terminal that do not break a name."""
-    columns, lines = room(0).columns, ["wrote"]
-    for i, name in enumerate(names):
-        if i and room(0).lines is not None and len(lines[-1]) + len(name) + 2 > columns:
-            lines.append("    ")
-        lines[-1] += f"{' ' if i == 0 else '  '}{name}"
-    return lines
 
 
 def _shown(files: list[Path], folder: Path) -> list[str]:

@@ -132,6 +132,16 @@ def room(below: int) -> "Room":
     return Room(columns, lines - below)
 
 
+def wrote(names: Sequence[object]) -> list[str]:
+    """Say what was written, in lines of a terminal that do not break a name."""
+    columns, lines = room(0).columns, ["wrote"]
+    for i, name in enumerate(map(str, names)):
+        if i and room(0).lines is not None and len(lines[-1]) + len(name) + 2 > columns:
+            lines.append("    ")
+        lines[-1] += f"{' ' if i == 0 else '  '}{name}"
+    return lines
+
+
 def refuse_missing(also: Sequence[str]) -> None:
     """Refuse before any work formats whose packages are not installed."""
     from trunnion.report.outputs import missing

@@ -17,6 +17,7 @@ from trunnion.commands.shared import (
     refuse_unwritable,
     room,
     say,
+    wrote,
 )
 
 if TYPE_CHECKING:
@@ -84,5 +85,5 @@ def study(
     }
     write_files(files)
     say(study_screen(done, model, room(0)))
-    say("wrote " + "  ".join(str(file) for file in files))
+    say("\n".join(wrote(list(files))))
     return FAILED if done.failures else SOLVED

@@ -12,6 +12,7 @@ from trunnion.report.sheets import Cell
 
 CAUSES = 6  # of a deck on the screen
 DROPPED = ("WARNINGS", "WORST", "NOTE", "GOOD", "CASES")  # a narrow terminal goes without
+LEAST = 16  # characters of DECK and STATUS there
 
 
 def summary_json(entries: Sequence[Entry]) -> bytes:
@@ -42,6 +43,7 @@ def summary_screen(entries: Sequence[Entry], room: Room = PIPE) -> str:
     """
     worst = [max((c.worst for c in e.cases if c.worst is not None), default=None) for e in entries]
     good = [sum(c.converged for c in e.cases) for e in entries]
+    told = [_note(e) for e in entries]
     columns = without(
         [
             words("DECK", [e.deck for e in entries], least=10, most=48),
@@ -50,10 +52,11 @@ def summary_screen(entries: Sequence[Entry], room: Room = PIPE) -> str:
             integers("GOOD", good),
             words("  WORST", ["" if w is None else f"  {w:.1e}" for w in worst], least=10),
             integers("WARNINGS", [e.warnings for e in entries], 9),
-            words("  NOTE", [f"  {_note(e)}" for e in entries]),
+            *([words("  NOTE", [f"  {note}" for note in told])] if any(told) else []),
         ],
         room.columns,
         DROPPED,
+        LEAST,
     )
     text = table(columns, none="no decks", width=room.columns)
     notes = [f"{e.deck}: {note}" for e in entries for note in e.notes]

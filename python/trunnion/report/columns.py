@@ -62,11 +62,16 @@ def fitted(columns: Sequence[Column], width: int = PAGE) -> list[Column]:
     return columns
 
 
-def without(columns: Sequence[Column], width: int, heads: Sequence[str]) -> list[Column]:
-    """Leave columns out, in the order of `heads`, until names can be cut to fit the others."""
+def without(
+    columns: Sequence[Column], width: int, heads: Sequence[str], least: int = CUT
+) -> list[Column]:
+    """Leave columns out, in the order of `heads`, until words can be cut to fit the others.
+
+    least : characters to which words may be cut.
+    """
     kept = list(columns)
     for head in heads:
-        if 2 + sum(min(c.width, CUT) if c.left else c.width for c in kept) <= width:
+        if 2 + sum(min(c.width, least) if c.left else c.width for c in kept) <= width:
             break
         kept = [c for c in kept if c.head.strip() != head]
     return kept

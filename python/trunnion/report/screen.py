@@ -115,16 +115,20 @@ def _title(results: Results, room: Room) -> str:
 
 
 def messages(texts: Sequence[str], room: Room, fg: str | None = None) -> list[list[str]]:
-    """Break messages at the width of a terminal, in one line or two; a pipe gets them whole."""
+    """Break messages at the width of a terminal, in one line or two; a pipe gets them whole.
+
+    A message keeps what it is indented by.
+    """
     found = []
     for text in texts:
         lines = [f"  {text}"]
         if room.lines is not None:
+            own = " " * (len(text) - len(text.lstrip()) + 2)
             lines = textwrap.wrap(
-                text,
+                text.lstrip(),
                 max(room.columns, 20),
-                initial_indent="  ",
-                subsequent_indent="    ",
+                initial_indent=own,
+                subsequent_indent=f"{own}  ",
                 max_lines=room.most,
                 placeholder=" ...",
             )
