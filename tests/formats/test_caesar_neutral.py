@@ -22,7 +22,8 @@ from trunnion.model import Direction, HangerDesign, Joint, Operation, Uniform
 
 
 def imported(cii, *, permissive=False, file="line.cii"):
-    source = source_of(cii.text().encode("cp1252"), file)
+    text = cii if isinstance(cii, str) else cii.text()
+    source = source_of(text.encode("cp1252"), file)
     result = read(source, Findings(source, permissive=permissive))
     assert read_text(result.deck()) == result.model  # deck -> model is the identity
     assert read_text(result.deck()).deck() == result.model.deck()
@@ -37,6 +38,12 @@ def problems_of(cii, **keys):
     with pytest.raises(DeckError) as caught:
         imported(cii, **keys)
     return [str(problem) for problem in caught.value.problems]
+
+
+def job_of_one(**keys):
+    c = job(**keys)
+    c.add(10, 20, dx=1000.0, RESTRANT=[slot(10, ANC)])
+    return c
 
 
 @pytest.mark.parametrize("version", VERSIONS)
@@ -266,6 +273,16 @@ def test_rotational_stiffness_and_gap_have_their_units():
     assert direction.gap == pytest.approx((math.radians(2.0),) * 2)
 
 
+def test_a_rotation_of_the_usual_stiffness_is_rigid():
+    c = job()
+    usual = 0.113 * 1e12  # in-lb/deg there
+    codes = [slot(20, 5, k=usual), slot(20, 6, k=0.09 * usual)]
+    c.add(10, 20, dx=1000.0, RESTRANT=[slot(10, ANC), *codes])
+    one, other = model_of(c).supports[1].directions
+    assert one.k is None
+    assert other.k == pytest.approx(0.09 * usual * 180 / math.pi)
+
+
 def test_skewed_cosines_make_a_vector_and_placeholders_do_not():
     c = job()
     skew = slot(20, 13, cosines=(0.6, 0.0, 0.8), mu=0.3)
@@ -285,12 +302,38 @@ def test_rigid_is_from_a_tenth_of_the_default_and_for_zero():
     assert any("stiffness of 0 are rigid" in a.text for a in result.assumed)
 
 
-@pytest.mark.parametrize("pressure", [0.0, 2000.0])
-def test_a_file_with_pressure_says_that_bourdon_effects_are_off(pressure):
-    c = job()
-    c.add(10, 20, dx=1000.0, p1=pressure, p2=0.0, RESTRANT=[slot(10, ANC)])
-    result = imported(c)
-    assert any("BOURDON=OPENING" in a.text for a in result.assumed) == (pressure > 0.0)
+@pytest.mark.parametrize(("option", "setting"), [(0, "OFF"), (1, "ELONGATION"), (2, "OPENING")])
+@pytest.mark.parametrize("version", VERSIONS)
+def test_bourdon_effects_are_those_of_the_options(version, option, setting):
+    result = imported(job_of_one(version=version, bourdon=option))
+    assert result.model.settings.bourdon == setting
+    assert (f"(BOURDON={setting})" in result.deck()) == (option > 0)
+    assert not any("Bourdon" in a.text for a in result.assumed)
+
+
+def test_pipe_under_pressure_is_as_long_as_lame_has_it_where_the_file_asks_for_it():
+    c = job(bourdon=1)
+    c.add(10, 20, dx=6000.0, t1=0.0, t2=0.0, p1=100.0, p2=0.0, RESTRANT=[slot(10, ANC)])
+    model = model_of(c)
+    results = trunnion.solve(model)
+    bore, e = 273.05 - 2 * 9.271, model.materials["A106-B"].e
+    assert e == pytest.approx(203400e6, rel=1e-4)
+    strain = 10e6 / e * (1 - 2 * 0.292) * bore**2 / (273.05**2 - bore**2)  # closed ends
+    assert results["SUS"].displacements["20"]["ux"] == pytest.approx(6.0 * strain, rel=1e-9)
+
+
+def test_a_file_that_ends_before_its_options_says_what_bourdon_effects_are_taken_as():
+    lines = job_of_one().text().split("\r\n")
+    end = lines.index("#$ UNITS   ")
+    result = imported("\r\n".join([*lines[: end - 4], *lines[end:]]))
+    assert any("does not say whether Bourdon" in a.text for a in result.assumed)
+
+
+def test_options_that_change_the_answer_are_named():
+    found = " ".join(problems_of(job_of_one(bowing=20.0, stiffening=1)))
+    assert "job: thermal bowing is on" in found
+    assert "job: stress stiffening by pressure is on" in found
+    assert "3 is no choice of Bourdon effects" in " ".join(problems_of(job_of_one(bourdon=3)))
 
 
 def test_a_restraint_given_on_two_elements_is_one_support():
@@ -314,6 +357,31 @@ def test_cnodes_tie_nodes_and_place_parts():
         ("10", (0.0, 0.0, 0.0)),
         ("120", (1.0, 0.0, 0.0)),
     ]
+
+
+def test_supports_may_stand_on_a_node_that_is_only_a_cnode():
+    # a rest with a gap of 1 mm on a column of 1e6 N/m: both carry the same, the column yields
+    c = job()
+    column = [slot(120, 3, k=1e4, cosines=Y), slot(120, 2), slot(120, 4)]
+    rest = slot(20, RESTING, cosines=Y, cnode=120, gap=1.0)
+    c.add(10, 20, dx=6000.0, t1=0.0, t2=0.0, RESTRANT=[slot(10, ANC), rest, *column])
+    results = trunnion.solve(model_of(c))
+    load = results["SUS"].supports["20"]["fy"]
+    assert results["SUS"].supports["120"]["fy"] == pytest.approx(load, rel=1e-9)
+    assert results["SUS"].displacements["20"]["uy"] == pytest.approx(-1e-3 - load / 1e6, rel=1e-4)
+    c = job()
+    c.add(10, 20, dx=6000.0, RESTRANT=[slot(10, ANC), slot(20, RESTING, cnode=7), slot(7, GUI)])
+    assert "node 7: GUI where no element has a length" in " ".join(problems_of(c))
+
+
+def test_a_cnode_that_nothing_holds_is_named_and_taken_to_ground():
+    c = job()
+    c.add(10, 20, dx=6000.0, RESTRANT=[slot(10, ANC), slot(20, RESTING, cosines=Y, cnode=900)])
+    c.hangers = [{"node": 20, "k": 100.0, "cold": 4000.0, "cnode": 901}]
+    found = problems_of(c)
+    for said in ("restraint +Y with CNODE 900, which no element", "hanger with CNODE 901"):
+        assert any(said in text for text in found)
+    assert all(s.cnode is None for s in model_of(c, permissive=True).supports)
 
 
 def test_coordinates_place_disconnected_parts():
@@ -552,6 +620,14 @@ def test_hangers_to_be_designed_and_several_at_one_place(version):
     assert (hangers[1].k, hangers[1].load, hangers[1].design) == (2e4, 8000.0, None)
 
 
+def test_the_load_and_the_space_that_a_user_gives_a_hanger_are_named():
+    c = job_of_one()
+    c.hangers = [{"node": 20, "user": 5000.0, "space": 1200.0}]
+    assert any("an operating load of 5000 N" in text for text in problems_of(c))
+    result = imported(c, permissive=True)
+    assert any("space available" in a.text for a in result.assumed)
+
+
 def test_strains_and_offsets_of_a_bend_itself_are_named():
     c = job()
     off = {"OFFSETS": (0.0, 0.0, 0.0, 0.0, 100.0, 0.0)}
@@ -711,9 +787,7 @@ def test_what_is_wrong_is_named(old, new, said):
 
 
 def test_a_pointer_beyond_its_array_and_cut_off_lines_are_named():
-    c = job()
-    c.add(10, 20, dx=1000.0, RESTRANT=[slot(10, ANC)])
-    lines = c.text().split("\r\n")
+    lines = job_of_one().text().split("\r\n")
     at = next(i for i, x in enumerate(lines) if x.startswith("#$ RESTRANT"))
     source = source_of("\n".join(lines[: at + 5] + lines[at + 6 :]).encode(), "line.cii")
     with pytest.raises(DeckError, match="RESTRANT has 23 lines"):

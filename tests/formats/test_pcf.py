@@ -323,11 +323,20 @@ def test_a_cap_that_closes_nothing_is_free_and_reported(load):
         load(STRAIGHT + block("CAP", (9000, 0, 0)))
 
 
-def test_a_closed_end_position_is_no_open_end(load):
-    text = STRAIGHT + "END-POSITION-CLOSED\n    CO-ORDS 3000.0 0.0 0.0\n"
+@pytest.mark.parametrize("kind", ["CLOSED", "VENT", "DRAIN"])
+def test_an_end_in_the_air_is_no_open_end(load, kind):
+    text = STRAIGHT + f"END-POSITION-{kind}\n    CO-ORDS 3000.0 0.0 0.0\n"
     imported = load(text, anchors=("open-ends",))
     assert anchors(imported) == ["10"]
-    assert "is free; not for open-ends: END-POSITION-CLOSED" in assumed(imported)
+    assert f"is free; not for open-ends: END-POSITION-{kind}" in assumed(imported)
+
+
+def test_a_text_goes_on_in_a_continuation_record(load):
+    text = support((1000, 0, 0), "SKID", "DOWN").rstrip() + "\n    DESCRIPTION SHOE OF\n"
+    for indent in ("", "    "):
+        by_text = TABLE + '"SHOE OF TYPE 7" = "Z"\n'
+        imported = load(STRAIGHT + text + f"{indent}CONTINUATION TYPE 7\n", by_text)
+        assert imported.model.supports[-1].directions[0].word == "Z"
 
 
 def test_a_body_without_length_within_a_pipe_splits_it_under_its_mass(load):
@@ -438,6 +447,16 @@ def test_what_a_file_lacks_is_told_with_points_that_cannot_be_read(tmp_path):
         "END-POINT: 3OOO is no co",
         "its weight is not in the",
     ]
+
+
+def test_gaps_and_supports_wait_for_a_side_table_that_can_be_read(load):
+    text = UNKNOWN + pipe((6003, 0, 0), (7000, 0, 0)) + support((500, 0, 0), None, None, "CA-77")
+    with pytest.raises(DeckError) as error:
+        load(text, "mux = 1\n")
+    said = "\n".join(texts(error))
+    assert "mux is no part" in said
+    for later in ("gap of", "CA-77", "wall of bore"):
+        assert later not in said
 
 
 def test_faults_of_the_side_table_come_with_those_of_the_file(load):
@@ -617,6 +636,11 @@ def test_unknown_components_and_branch_bends_are_named(load):
 def test_a_file_cut_off_in_a_component_is_an_error(load):
     with pytest.raises(DeckError, match="PIPE of line 13: 1 END-POINT; a PIPE has 2"):
         load(STRAIGHT[: STRAIGHT.rindex("    END-POINT")])
+
+
+def test_a_file_may_begin_with_any_component(load):
+    with pytest.raises(DeckError, match="UNITS-BORE is missing"):
+        load(block("ELBOW", (0, 0, 0), (150, 150, 0), centre=(150, 0, 0)))
 
 
 def test_units_that_are_missing_are_an_error(load):

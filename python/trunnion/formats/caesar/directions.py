@@ -30,9 +30,11 @@ class Directions:
                 return []
         if word in ("+LIM", "-LIM"):
             return self._one_sided(e, r, word)
-        if word in ("GUIDE", "LIMIT") and self._follows_owner(i, e, label):
+        node = int(label.rstrip("NMF"))
+        alone = node not in self.labels.at
+        if word in ("GUIDE", "LIMIT") and not alone and self._follows_owner(i, e, label):
             return self._along_owner(e, r, word)
-        if word in ("GUIDE", "LIMIT") and not self._has_pipe(int(label.rstrip("NMF"))):
+        if word in ("GUIDE", "LIMIT") and not self._has_pipe(node):
             text = f"{name_of(r.code)} where no element has a length; left out"
             self.findings.leave_out(r.line, f"node {r.node}", text)
             return []
@@ -82,8 +84,8 @@ class Directions:
     def _has_pipe(self, node: int) -> bool:
         """Tell whether a pipe ends at a node itself, without an offset, or has it on its arc."""
         here = self.labels.at.get(node)
-        if here is None:
-            return True
+        if here is None:  # of CNODEs alone
+            return False
         return any(
             size(e.delta) and not _arm(e, node) for e in map(self.job.elements.__getitem__, here)
         )

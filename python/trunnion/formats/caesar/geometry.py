@@ -58,6 +58,28 @@ class Labels:
             return self.arc[node]
         return str(node) if node in self.at else None
 
+    def standing(self, node: int) -> str | None:
+        """Label of a node that supports or loads stand on; one that is only a CNODE has one too."""
+        return self.node(node) or (str(node) if node in self.connecting else None)
+
+    def cnode(self, node: int, line: int, what: str) -> str | None:
+        """Label of a CNODE, None for the ground: 0, or a node that nothing at all holds."""
+        label = self.node(node) if node else None
+        if not node or label is not None:
+            return label
+        if node in self.used:
+            return str(node)
+        text = f"{what} with CNODE {node}, which no element has and nothing holds; taken to ground"
+        self.findings.leave_out(line, f"node {node}", text)
+        return None
+
+    @cached_property
+    def connecting(self) -> set[int]:
+        """Nodes that supports, hangers and nozzles are connected to."""
+        job = self.job
+        found = {r.cnode for e in job.elements for r in e.restraints}
+        return found | {h.cnode for h in job.hangers} | {z.vessel for z in job.nozzles}
+
     def ends(self, i: int) -> tuple[str, str]:
         """Labels of both ends of element `i`."""
         e = self.job.elements[i]

@@ -35,7 +35,7 @@ class Hangers:
         if label is None:
             self.findings.leave_out(h.line, name, "hanger at a node that no element has")
             return
-        cnode = None if not h.cnode else self.labels.node(h.cnode) or str(h.cnode)
+        cnode = self.labels.cnode(h.cnode, h.line, "hanger")
         n = max(1, h.number)  # the program multiplies rate and load by the number of hangers
         load = n * (h.constant or h.cold_load)
         line = self.job.elements[self.labels.at[h.node][0]].line if h.node in self.labels.at else 0
@@ -51,8 +51,12 @@ class Hangers:
     def _designed(self, h: HangerData, label: str, cnode: str | None, n: int, place: Place) -> None:
         """Add a hanger that the program selects."""
         if h.rate or h.hot_load:
-            text = "hanger with a rate or an operating load, but no cold load; designed anew"
+            given = "a rate" if h.rate else f"an operating load of {h.hot_load:.6g} N"
+            text = f"hanger with {given}, but no cold load; designed anew, for the weight found"
             self.findings.leave_out(h.line, f"node {h.node}", text)
+        if h.space:
+            text = "springs are selected without regard to the space available for hangers"
+            self.findings.assume(text, h.line)
         method = "COLD" if h.cold_design else "HOT"
         variation = h.variation / 100.0
         known = h.table in ANVIL
