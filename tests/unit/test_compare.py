@@ -110,6 +110,74 @@ def test_a_number_that_a_new_run_does_not_give_is_named(change, capsys):
     assert capsys.readouterr().out.startswith("OPE support ")
 
 
+def test_an_envelope_that_a_new_run_does_not_give_is_named(change, capsys):
+    change(lambda r: scaled(r["envelope"][0]["max"], 1 + 1e-6))
+    assert leave("verify", "b.json") == 1
+    assert capsys.readouterr().out.startswith("envelope support 10 max: F")
+
+
+def test_another_case_named_for_an_extreme_is_told(change, capsys):
+    def edit(report):
+        named = report["envelope"][0]["max_case"]
+        named[named.index("OPE")] = "SUS"
+
+    change(edit)
+    assert leave("verify", "b.json") == 1
+    out = capsys.readouterr().out
+    assert out.startswith("envelope support 10 max: case of F")
+    assert out.rstrip().endswith("SUS -> OPE")
+
+
+def test_what_is_no_envelope_is_refused(change, capsys):
+    change(lambda r: r["envelope"][0].pop("max"))
+    assert leave("verify", "b.json") == 2
+    assert "envelope: no table of trunnion run" in capsys.readouterr().err
+
+
+@pytest.fixture(scope="module")
+def cycled(tmp_path_factory):
+    return stored(tmp_path_factory.mktemp("loop"), (MODELS / "cycle_line.inp").read_text())
+
+
+@pytest.mark.parametrize(
+    ("place", "said"),
+    [
+        (("supports", 0, "range"), "CYCLE HEAT support 0 range: FX"),
+        (("supports", 0, "one_shot"), "CYCLE HEAT support 0 one shot: FX"),
+        (("supports", 0, "path", 1), "CYCLE HEAT support 0 step 2: FX"),
+        (("elements", 0, "range_from"), "CYCLE HEAT element 0-10 range from: FX"),
+        (("states", 1, "elements", 0, "force_from"), "CYCLE HEAT step 1 COLD element 0-10 from"),
+        (("loops",), "CYCLE HEAT: loops 3 -> 2"),
+        (("repeats",), "CYCLE HEAT: repeats False -> True"),
+        ((), "cycle HEAT: cycle absent -> present"),
+    ],
+)
+def test_a_cycle_that_a_new_run_does_not_give_is_named(
+    tmp_path, monkeypatch, cycled, place, said, capsys
+):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "a.inp").write_bytes((MODELS / "cycle_line.inp").read_bytes())
+    report = json.loads(cycled)
+    if not place:
+        del report["cycles"]
+    else:
+        at = report["cycles"]["HEAT"]
+        for key in place[:-1]:
+            at = at[key]
+        last = place[-1]
+        if last == "loops":
+            at[last] = 3
+        elif last == "repeats":
+            at[last] = False
+        else:
+            scaled(at[last], 1 + 1e-6)
+    (tmp_path / "a.json").write_bytes(cycled)
+    (tmp_path / "b.json").write_text(json.dumps(report))
+    assert leave("verify", "a.json") == 0
+    assert leave("verify", "b.json") == 1
+    assert said in capsys.readouterr().out
+
+
 def test_stored_numbers_are_judged_without_solving(home, monkeypatch, capsys):
     import trunnion
 
@@ -410,6 +478,16 @@ def test_a_node_shows_the_numbers_of_the_file(home, capsys):
         assert f"{value + 0.0:.1f}".replace("-0.0", "0.0") in out
     assert f"{1e3 * case['nodes']['40'][0]:.4f}" in out
     assert any(line.split()[1:2] == ["to"] for line in out.splitlines())
+
+
+def test_directions_that_differ_have_their_own_states(home, capsys):
+    assert leave("show", "a.json", "--case", "OPE", "--node", "20") == 0
+    case = json.loads((home / "a.json").read_bytes())["cases"]["OPE"]
+    rest, guide = next(s for s in case["supports"] if s["id"] == "20")["contacts"]
+    assert (rest["dir"], rest["state"], guide["dir"], guide["state"]) == (
+        "+Y", "slip", "GUIDE", "open"
+    )  # fmt: skip
+    assert "20 +Y GUIDE  slip +Y, open GUIDE " in capsys.readouterr().out
 
 
 def test_a_bend_shows_the_ends_at_its_far_point(home, capsys):

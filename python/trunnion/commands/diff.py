@@ -50,7 +50,9 @@ def diff(
     for change in changes[:most]:
         say(str(change))
     if most is not None and len(changes) > most:
-        say(f"... and {len(changes) - most} more differences")
+        from trunnion.report.counts import counted
+
+        say(f"... and {counted(len(changes) - most, 'more difference')}")
     return FAILED if changes else SOLVED
 
 

@@ -9,8 +9,10 @@ from trunnion.arrays import F8, OPEN, CaseResult, Results, System
 from trunnion.certificate import LIMIT
 from trunnion.frozen import frozen
 from trunnion.report.balance import Balance, balance
+from trunnion.report.causes import told_cause
+from trunnion.report.counts import counted
 from trunnion.report.units import ReportUnits
-from trunnion.results.supports import STATES, cause_of, is_good
+from trunnion.results.supports import STATES, is_good
 
 SUPPORTS = 40  # told of one case, the most restless
 ROWS = 200  # iterations of one support
@@ -69,16 +71,18 @@ def _story(case: CaseResult, units: ReportUnits) -> dict[str, object]:
     found = course(case)
     changes = {i: _changes(found.level[:, i]) for i in range(found.level.shape[1])}
     restless = sorted((i for i in changes if changes[i]), key=lambda i: (-len(changes[i]), i))
-    note = f"{len(restless)} of {len(case.system.cards)} supports changed state"
+    note = f"{len(restless)} of {counted(len(case.system.cards), 'support')} changed state"
     if kept < len(case.history):
-        note += f"; supports are told of the first {kept} of {len(case.history)} iterations"
+        note += (
+            f"; supports are told of the first {kept} of {counted(len(case.history), 'iteration')}"
+        )
     if len(restless) > SUPPORTS:
         note += f"; the {SUPPORTS} that did so most often are told"
     return {
         "case": case.name,
         "note": note,
         "force": units.force.unit,
-        **_verdict(case),
+        **_verdict(case, units),
         **_passes(case, balance(case), units),
         "supports": [
             {
@@ -92,10 +96,10 @@ def _story(case: CaseResult, units: ReportUnits) -> dict[str, object]:
     }
 
 
-def _verdict(case: CaseResult) -> dict[str, object]:
+def _verdict(case: CaseResult, units: ReportUnits) -> dict[str, object]:
     """Say whether the case converged: the worst item of its certificate and what is allowed."""
     good, found = is_good(case), case.certificate
-    text = f"NOT CONVERGED: {cause_of(case)}"
+    text = f"NOT CONVERGED: {told_cause(case, units)}"
     if good and found is not None:
         text = f"Converged and certified: worst item {found.worst:.1e} ({found.where}), "
         text += f"allowed {LIMIT:.1e}."
