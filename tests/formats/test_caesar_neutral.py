@@ -438,6 +438,53 @@ def test_a_rigid_at_a_bend_gets_a_pipe_for_its_tangent():
     assert rigid.delta == pytest.approx((0.0, 0.0, 0.5))
 
 
+def after_a_bend(**body):
+    c = job()
+    c.add(10, 20, dx=2000.0, RESTRANT=[slot(10, ANC)], BEND={"radius": 381.0})
+    c.add(20, 30, dz=881.0, **body)
+    c.add(30, 40, dy=1000.0, od=219.1, wall=8.18)
+    return c
+
+
+def test_a_reducer_or_joint_that_leaves_a_bend_begins_behind_its_tangent():
+    model = model_of(after_a_bend(REDUCERS=(219.1, 8.18)))
+    _, tangent, cone, after = model.pipes
+    assert (tangent.start, tangent.end, cone.start, cone.end) == ("20", "20T", "20T", "30")
+    assert tangent.section == cone.section
+    assert cone.reducer.section == after.section
+    assert cone.delta == pytest.approx((0.0, 0.0, 0.5))
+    _, tangent, joint, _ = model_of(after_a_bend(EXPJT=(1e3, 1e3, 0.0, 0.0, 0.0))).pipes
+    assert (tangent.joint, joint.joint.axial) == (None, 1e5)
+    assert joint.delta == pytest.approx((0.0, 0.0, 0.5))
+    metal, cover = (273.05**2 - 254.508**2) * 7833.44, (423.05**2 - 273.05**2) * 140.0
+    weight = 0.5 * math.pi / 4 * (metal + cover) * 1e-6 * 9.80665
+    assert joint.weight == pytest.approx(weight, rel=1e-6)
+
+
+def test_a_body_that_ends_in_a_bend_or_is_nothing_but_its_tangent_is_named():
+    c = job()
+    bend = {"BEND": {"radius": 381.0}}
+    c.add(10, 20, dx=2000.0, RESTRANT=[slot(10, ANC)], REDUCERS=(219.1, 8.18), **bend)
+    c.add(20, 30, dz=381.0, RIGID=(900.0, 1))
+    c.add(30, 40, dz=1000.0)
+    found = " ".join(problems_of(c))
+    assert "element 10-20: reducer that ends in a bend" in found
+    assert "element 20-30: rigid that is no longer than the tangent of a bend" in found
+    assert not any(p.rigid or p.reducer for p in model_of(c, permissive=True).pipes)
+
+
+def test_a_guide_follows_a_body_behind_its_bend_and_an_owner_behind_its_link():
+    c = after_a_bend(RIGID=(1000.0, 2), RESTRANT=[slot(30, GUI), slot(30, LIM)])
+    guide, stop = model_of(c).supports[1].directions
+    assert (guide.along, stop.along) == ("20T-30", "20T-30")
+    c = job()
+    c.add(10, 20, dx=2000.0, RESTRANT=[slot(10, ANC)])
+    owned = {"OFFSETS": (0.0, 0.0, 0.0, 0.0, 200.0, 0.0), "RIGID": (900.0, 1)}
+    c.add(20, 30, dz=1000.0, RESTRANT=[slot(30, GUI), slot(30, LIM)], **owned)
+    c.add(30, 40, dx=1000.0)
+    assert [d.word for d in model_of(c).supports[1].directions] == ["X", "(0,0.196116,0.980581)"]
+
+
 def test_the_tangent_before_a_rigid_carries_the_uniform_load_of_its_element():
     c = job()
     load = [0.0, -3.0, *[0.0] * 34]
