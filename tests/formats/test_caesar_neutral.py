@@ -675,6 +675,20 @@ def test_hangers_to_be_designed_and_several_at_one_place(version):
     assert (hangers[1].k, hangers[1].load, hangers[1].design) == (2e4, 8000.0, None)
 
 
+def test_hangers_without_tags_are_read_below_elements_with_names():
+    """Widths may mix between version 7 and 11: the lines that are there decide."""
+    c = job(11.0)
+    c.add(10, 20, dx=6000.0, RESTRANT=[slot(10, ANC)])
+    c.hangers = [{"node": n, "k": 100.0, "cold": 4000.0 + n} for n in (10, 20)]
+    lines = c.text().split("\r\n")
+    start = next(i for i, x in enumerate(lines) if x.startswith("#$ MISCEL_1"))
+    tags = [i for i in range(start, len(lines)) if lines[i] == c.string("")]
+    assert len(tags) == 4
+    short = [x for i, x in enumerate(lines) if i not in tags]
+    hangers = [s for s in model_of("\r\n".join(short)).supports if s.kind == "hanger"]
+    assert [(s.node, s.k, s.load) for s in hangers] == [("10", 1e4, 4010.0), ("20", 1e4, 4020.0)]
+
+
 def test_the_load_and_the_space_that_a_user_gives_a_hanger_are_named():
     c = job_of_one()
     c.hangers = [{"node": 20, "user": 5000.0, "space": 1200.0}]
