@@ -19,6 +19,7 @@ from trunnion.formats import Findings
 from trunnion.formats.caesar import read
 from trunnion.formats.source import source_of
 from trunnion.model import Direction, HangerDesign, Joint, Operation, Uniform
+from trunnion.system.geometry import place
 
 
 def imported(cii, *, permissive=False, file="line.cii"):
@@ -436,6 +437,32 @@ def test_a_rigid_at_a_bend_gets_a_pipe_for_its_tangent():
     assert (rigid.start, rigid.end, rigid.rigid) == ("20T", "30", True)
     assert pipe.delta == pytest.approx((0.0, 0.0, 0.381))
     assert rigid.delta == pytest.approx((0.0, 0.0, 0.5))
+
+
+@pytest.mark.parametrize("version", [11.0, 15.01])
+def test_a_node_at_any_angle_of_a_bend_cuts_its_arc_and_changes_nothing_else(version):
+    def line(angle):
+        c = job(version)
+        nodes = ((0.0, 18), (angle, 19), (-2.0202, 17))
+        bend = {"radius": 381.0, "nodes": nodes, "flanges": 1}
+        c.add(10, 20, dx=2000.0, RESTRANT=[slot(10, ANC), slot(19, 3, k=1e-3)], BEND=bend)
+        c.add(20, 30, dz=2000.0, RESTRANT=[slot(30, ANC)])
+        return model_of(c)
+
+    model = line(30.0)
+    assert [(p.start, p.end) for p in model.pipes] == [("10", "31"), ("31", "20"), ("20", "30")]
+    assert [(b.node, b.radius) for b in model.bends] == [("31", 0.381), ("20", 0.381)]
+    assert model.bends[0].k == model.bends[1].k
+    assert model.supports[1].node == "31F"
+    points = place(model, []).points
+    middle = (2.0 - 0.381 + 0.381 * math.sin(math.pi / 6), 0.0, 0.381 * (1 - math.cos(math.pi / 6)))
+    assert points["31F"] == pytest.approx(middle, abs=1e-9)
+    assert points["31N"] == pytest.approx((1.619, 0.0, 0.0), abs=1e-9)
+    assert points["20F"] == pytest.approx((2.0, 0.0, 0.381), abs=1e-9)
+    cut, whole = (trunnion.solve(m) for m in (model, line(45.0)))
+    for case in ("SUS", "OPE1"):
+        loads, others = (r[case].supports.values[[0, -1], :6] for r in (cut, whole))
+        assert loads == pytest.approx(others, rel=1e-6, abs=1e-6 * abs(others).max())
 
 
 def after_a_bend(**body):
