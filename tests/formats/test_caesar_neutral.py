@@ -438,6 +438,61 @@ def test_a_rigid_at_a_bend_gets_a_pipe_for_its_tangent():
     assert rigid.delta == pytest.approx((0.0, 0.0, 0.5))
 
 
+def after_a_bend(**body):
+    c = job()
+    c.add(10, 20, dx=2000.0, RESTRANT=[slot(10, ANC)], BEND={"radius": 381.0})
+    c.add(20, 30, dz=881.0, **body)
+    c.add(30, 40, dy=1000.0, od=219.1, wall=8.18)
+    return c
+
+
+def test_a_reducer_or_joint_that_leaves_a_bend_begins_behind_its_tangent():
+    model = model_of(after_a_bend(REDUCERS=(219.1, 8.18)))
+    _, tangent, cone, after = model.pipes
+    assert (tangent.start, tangent.end, cone.start, cone.end) == ("20", "20T", "20T", "30")
+    assert tangent.section == cone.section
+    assert cone.reducer.section == after.section
+    assert cone.delta == pytest.approx((0.0, 0.0, 0.5))
+    _, tangent, joint, _ = model_of(after_a_bend(EXPJT=(1e3, 1e3, 0.0, 0.0, 0.0))).pipes
+    assert (tangent.joint, joint.joint.axial) == (None, 1e5)
+    assert joint.delta == pytest.approx((0.0, 0.0, 0.5))
+    metal, cover = (273.05**2 - 254.508**2) * 7833.44, (423.05**2 - 273.05**2) * 140.0
+    weight = 0.5 * math.pi / 4 * (metal + cover) * 1e-6 * 9.80665
+    assert joint.weight == pytest.approx(weight, rel=1e-6)
+
+
+def test_a_body_that_ends_in_a_bend_or_is_nothing_but_its_tangent_is_named():
+    c = job()
+    bend = {"BEND": {"radius": 381.0}}
+    c.add(10, 20, dx=2000.0, RESTRANT=[slot(10, ANC)], REDUCERS=(219.1, 8.18), **bend)
+    c.add(20, 30, dz=381.0, RIGID=(900.0, 1))
+    c.add(30, 40, dz=1000.0)
+    found = " ".join(problems_of(c))
+    assert "element 10-20: reducer that ends in a bend" in found
+    assert "element 20-30: rigid that is no longer than the tangent of a bend" in found
+    assert not any(p.rigid or p.reducer for p in model_of(c, permissive=True).pipes)
+
+
+def test_a_guide_follows_a_body_behind_its_bend_and_an_owner_behind_its_link():
+    c = after_a_bend(RIGID=(1000.0, 2), RESTRANT=[slot(30, GUI), slot(30, LIM)])
+    guide, stop = model_of(c).supports[1].directions
+    assert (guide.along, stop.along) == ("20T-30", "20T-30")
+    c = job()
+    c.add(10, 20, dx=2000.0, RESTRANT=[slot(10, ANC)])
+    owned = {"OFFSETS": (0.0, 0.0, 0.0, 0.0, 200.0, 0.0), "RIGID": (900.0, 1)}
+    c.add(20, 30, dz=1000.0, RESTRANT=[slot(30, GUI), slot(30, LIM)], **owned)
+    c.add(30, 40, dx=1000.0)
+    assert [d.word for d in model_of(c).supports[1].directions] == ["X", "(0,0.196116,0.980581)"]
+
+
+def test_the_tangent_before_a_rigid_carries_the_uniform_load_of_its_element():
+    c = job()
+    load = [0.0, -3.0, *[0.0] * 34]
+    c.add(10, 20, dx=2000.0, RESTRANT=[slot(10, ANC)], BEND={"radius": 381.0}, UNIFORM=load)
+    c.add(20, 30, dz=881.0, RIGID=(1000.0, 2))
+    assert [[q.load for q in pipe.uniform] for pipe in model_of(c).pipes] == [[(0, -300, 0)]] * 3
+
+
 def test_branches_at_a_bend_leave_from_its_points():
     c = job()
     c.add(
@@ -628,7 +683,26 @@ def test_the_load_and_the_space_that_a_user_gives_a_hanger_are_named():
     assert any("space available" in a.text for a in result.assumed)
 
 
-def test_strains_and_offsets_of_a_bend_itself_are_named():
+def test_expansions_instead_of_temperatures_move_the_pipe_by_just_that_much():
+    # 10-20 has expansions in T1 and T2, 20-30 temperatures: A106 B expands by 1.76e-3 to 170 C
+    c = job()
+    c.add(10, 20, dx=6000.0, t1=0.002, t2=-0.0005, p1=0.0, p2=0.0, RESTRANT=[slot(10, ANC)])
+    c.add(20, 30, dx=6000.0, p1=0.0, p2=0.0)
+    results = trunnion.solve(model_of(c))
+    hot, cold = (results[case].displacements for case in ("OPE1", "OPE2"))
+    assert hot["20"]["ux"] == pytest.approx(6.0 * 0.002, rel=1e-9)
+    assert cold["20"]["ux"] == pytest.approx(-6.0 * 0.0005, rel=1e-9)
+    assert hot["30"]["ux"] - hot["20"]["ux"] == pytest.approx(6.0 * 1.76e-3, rel=0.02)
+
+
+def test_a_wall_that_nobody_makes_is_reported():
+    c = job()
+    c.add(10, 20, dx=6000.0, wall=0.01, RESTRANT=[slot(10, ANC)])
+    said = " ".join(a.text for a in imported(c).assumed)
+    assert "a wall of 0.01 mm at an OD of 273.05 mm looks like a stand-in" in said
+
+
+def test_strains_beside_temperatures_and_offsets_of_a_bend_itself_are_named():
     c = job()
     off = {"OFFSETS": (0.0, 0.0, 0.0, 0.0, 100.0, 0.0)}
     c.add(10, 20, dx=1000.0, RESTRANT=[slot(10, ANC)])
@@ -649,6 +723,24 @@ def test_an_offset_at_the_other_end_of_a_bend_is_a_stiff_link_without_weight():
     assert (link.start, link.end, link.delta) == ("20", "41", (0.0, 0.0, 0.1365))
     assert (link.rigid, link.weight) == (True, 0.0)
     assert (pipe.start, pipe.end, pipe.delta) == ("41", "30", (0.0, 0.0, 1.8635))
+
+
+@pytest.mark.parametrize(
+    "body",
+    [{"RIGID": (2100.0, 1)}, {"REDUCERS": (219.1, 8.18)}, {"EXPJT": (1e3, 1e3, 0.0, 0.0, 0.0)}],
+)
+def test_the_offset_of_a_body_is_a_stiff_link_without_weight(body):
+    c = job()
+    c.add(10, 20, dx=1000.0, RESTRANT=[slot(10, ANC)])
+    arms = (0.0, 0.0, 136.5, 0.0, 200.0, 0.0)
+    c.add(20, 30, dz=2000.0, OFFSETS=arms, **body)
+    c.add(30, 40, dz=500.0, od=219.1, wall=8.18)
+    _, first, made, last, _ = model_of(c).pipes
+    assert (first.start, first.end, first.delta) == ("20", "41", (0.0, 0.0, 0.1365))
+    assert (made.start, made.end, made.delta) == ("41", "42", (0.0, 0.2, 1.8635))
+    assert (last.start, last.end, last.delta) == ("42", "30", (0.0, -0.2, 0.0))
+    assert [link.weight for link in (first, last)] == [0.0, 0.0]
+    assert made.rigid or made.reducer or made.joint
 
 
 def bent(**bend):

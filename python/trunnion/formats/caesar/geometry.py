@@ -12,6 +12,7 @@ from trunnion.frozen import frozen
 STRAIGHT = 1e-5  # two elements that turn by less make no bend [rad]
 SAME_ANGLE = 0.1  # [deg]: a node this near to 0, the middle or the end of an arc is there
 SNAP = 1e-5  # a tangent that uses up its element to this length uses it up exactly [m]
+EVEN = 1e-9  # a body this little longer than the tangent of its bend is no longer [m]
 SHORT = 0.01  # of its length: an element may be so much too short for its bends
 
 
@@ -85,6 +86,26 @@ class Labels:
         e = self.job.elements[i]
         return self.end(i, e.start), self.end(i, e.end)
 
+    def weld(self, i: int) -> str | None:
+        """Label where the tangent of a bend ends and element `i`, a body that leaves it, begins.
+
+        None: it is no body, leaves no bend, ends in one, or is no longer than the tangent.
+        """
+        e = self.job.elements[i]
+        corner = self.corners.get(e.start)
+        body = (e.rigid, e.reducer, e.joint) != (None, None, None)
+        if not body or corner is None or self.tangent_at(i) != [e.start] or corner.after != i:
+            return None
+        return f"{e.start}T" if size(e.delta) - corner.tangent > EVEN else None
+
+    def pipe_at(self, i: int, node: int) -> str:
+        """Name the pipe of the model by which element `i` reaches one of its nodes: "30-40"."""
+        start, end = self.ends(i)
+        weld = self.weld(i)
+        if weld is None:
+            return f"{start}-{end}"
+        return f"{start}-{weld}" if node == self.job.elements[i].start else f"{weld}-{end}"
+
     def _corner(self, i: int, e: Element) -> None:
         """Find the element that leaves a bend, and its turn."""
         bend = e.bend
@@ -133,13 +154,13 @@ class Labels:
         radii = {node: c.radius for node, c in self.corners.items()}
         for _ in range(3):
             for i, e in enumerate(self.job.elements):
-                mine = self._mine(i)
+                mine = self.tangent_at(i)
                 used, length = sum(self.corners[n].tangent for n in mine), size(e.delta)
                 if mine and used != length and length - SNAP <= used <= length * (1.0 + SHORT):
                     for n in mine:
                         self._scale(n, length / used)
         for i, e in enumerate(self.job.elements):
-            used, length = sum(self.corners[n].tangent for n in self._mine(i)), size(e.delta)
+            used, length = sum(self.corners[n].tangent for n in self.tangent_at(i)), size(e.delta)
             if used > length + SNAP:
                 text = f"element {e.start}-{e.end} is {1e3 * length:.6g} mm long; its bends need "
                 self.findings.fault(e.line, f"{text}{1e3 * used:.6g} mm")
@@ -151,7 +172,7 @@ class Labels:
                 text += f"{1e3 * corner.radius:.6g} mm, not {1e3 * radius:.6g}"
                 self.findings.assume(text, e.bend.line if e.bend else e.line)
 
-    def _mine(self, i: int) -> list[int]:
+    def tangent_at(self, i: int) -> list[int]:
         """Nodes of the bends that element `i` is a tangent of."""
         e = self.job.elements[i]
         ends = [n for n in (e.start, e.end) if n in self.corners]
