@@ -1,6 +1,7 @@
 """trunnion verify, diff and show on results that were written and then changed."""
 
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -440,24 +441,81 @@ def test_a_deck_and_a_result_cannot_be_compared(home, capsys):
     assert "two of a kind" in capsys.readouterr().err
 
 
-def test_it_is_a_diff_driver_of_git(home):
-    """As GIT_EXTERNAL_DIFF, in a real repository."""
-    import os
-
-    program = f"{sys.executable} -m trunnion diff --git"
+@pytest.fixture
+def git(home):
+    """Git in a repository with a.inp, deaf to the user's settings; in `lines` (deck)."""
     own = {**os.environ, "GIT_CONFIG_GLOBAL": os.devnull, "GIT_CONFIG_NOSYSTEM": "1"}
 
-    def git(*arguments: str) -> str:
-        done = subprocess.run(
-            ["git", *arguments], capture_output=True, text=True, check=True, env=own
-        )
-        return done.stdout
+    def call(*arguments: str) -> str:
+        who = ("-c", "user.name=a", "-c", "user.email=a@example.org")
+        return subprocess.run(
+            ["git", *who, *arguments], capture_output=True, text=True, check=True, env=own
+        ).stdout
 
-    git("init", "-q")
-    git("add", "a.inp")
+    (home / ".gitattributes").write_text("*.inp diff=trunnion\n*.json diff=trunnion\n")
+    call("init", "-q")
+    call("add", ".")
+    call("commit", "-q", "-m", "first")
+    return call
+
+
+DRIVER = f"diff.trunnion.command={sys.executable} -m trunnion diff --git"
+TEXTCONV = f"diff.trunnion.textconv={sys.executable} -m trunnion diff --canonical"
+
+
+def test_it_is_a_diff_driver_of_git(home, git):
     (home / "a.inp").write_text(DECK.replace("+Y MU=0.3", "+Y MU=0.1"))
-    own["GIT_EXTERNAL_DIFF"] = program
-    assert git("diff") == "trunnion diff a.inp\n  support 40: +Y MU 0.3 -> 0.1\n"
+    assert git("-c", DRIVER, "diff") == "trunnion diff a.inp\n  support 40: +Y MU 0.3 -> 0.1\n"
+
+
+def test_git_shows_renamed_new_and_deleted_decks(home, git):
+    git("mv", "a.inp", "b.inp")
+    (home / "b.inp").write_text(DECK.replace("+Y MU=0.3", "+Y MU=0.1"))
+    (home / "c.inp").write_text(DECK.replace("TITLE", "TITLE Another"))
+    git("add", ".")
+    shown = git("-c", DRIVER, "diff", "-M", "HEAD")
+    assert "trunnion diff a.inp -> b.inp\n  support 40: +Y MU 0.3 -> 0.1\n" in shown
+    assert "trunnion diff c.inp\n  new file\n" in shown
+    git("commit", "-q", "-m", "second")
+    git("rm", "-q", "c.inp")
+    assert git("-c", DRIVER, "diff", "HEAD") == "trunnion diff c.inp\n  deleted file\n"
+    shown = git("-c", TEXTCONV, "diff", "HEAD~", "HEAD", "--", "c.inp")
+    assert "+SUPPORT 40 +Y" in shown
+    assert "+++ b/c.inp" in shown
+
+
+def test_git_compares_results_and_says_what_is_not_merged(home, git, change):
+    change(lambda r: scaled(r["cases"]["OPE"]["supports"][0]["force"], 1.12))
+    (home / "b.json").replace("a.json")
+    assert "trunnion diff a.json\n  OPE support 10: F" in git("-c", DRIVER, "diff")
+    from trunnion.compare.gitdriver import driver
+
+    assert driver([Path("a.inp")], None) == ["trunnion diff a.inp", "  not merged"]
+
+
+def test_git_finds_includes_in_the_work_tree(home, git):
+    (home / "lines").mkdir()
+    (home / "common.inp").write_text("".join(DECK.splitlines(keepends=True)[2:5]))
+    rest = DECK.splitlines(keepends=True)
+    (home / "lines" / "x.inp").write_text(
+        "".join([*rest[:2], "INCLUDE ../common.inp\n", *rest[5:]])
+    )
+    git("add", ".")
+    git("commit", "-q", "-m", "second")
+    text = (home / "lines" / "x.inp").read_text()
+    (home / "lines" / "x.inp").write_text(text.replace("+Y MU=0.3", "+Y MU=0.1"))
+    said = "trunnion diff lines/x.inp\n  support 40: +Y MU 0.3 -> 0.1\n"
+    assert git("-c", DRIVER, "diff") == said
+
+
+@pytest.mark.parametrize("how", [DRIVER, TEXTCONV])
+def test_a_file_that_is_no_whole_deck_does_not_end_git_diff(home, git, how):
+    (home / "a.inp").write_text(DECK.replace("ANCHOR   10", "ANCOR    10"))
+    shown = git("-c", how, "diff")
+    assert "a.inp:7: ANCOR: unknown keyword" in shown
+    assert "git-blob" not in shown
+    assert "-ANCHOR" in shown
+    assert "+ANCOR    10" in shown
 
 
 # ---------------------------------------------------------------------- show

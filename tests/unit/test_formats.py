@@ -89,9 +89,15 @@ def test_what_cannot_be_represented_is_an_error_that_names_everything(home, caps
 
 
 def test_permissive_lists_what_is_left_out_on_top_of_all_reports(home, capsys):
-    assert leave("run", "odd.toy", "--permissive", "-o", "r") == 0
+    assert leave("run", "odd.toy", "--permissive", "-o", "r", "--html", "--xlsx", "--csv") == 0
     screen = capsys.readouterr().out
     assert "LEFT OUT: element 10-20: bellows; taken as pipe (odd.toy:3)" in screen
+    page = (home / "r" / "odd.html").read_text()
+    assert "<b>LEFT OUT (2)</b>" in page
+    assert "<li>element 10-20: bellows; taken as pipe (odd.toy:3)</li>" in page
+    assert page.index("nozzle; taken as pipe (odd.toy:4)") < page.index('id="picture"')
+    assert "no load cases in the file" in page
+    assert "bellows; taken as pipe" in (home / "r" / "odd_csv" / "warnings.csv").read_text()
     text = (home / "r" / "odd.out").read_text()
     assert "LEFT OUT (2)" in text
     assert text.index("nozzle; taken as pipe (odd.toy:4)") < text.index("1  SUMMARY")

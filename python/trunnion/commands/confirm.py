@@ -14,6 +14,7 @@ from trunnion.commands.shared import (
     SOLVED,
     InputError,
     beside,
+    is_foreign,
     refuse_unwritable,
     say,
 )
@@ -68,7 +69,7 @@ def confirm(
         raise InputError(lacking)
     if folder is not None:
         refuse_unwritable(folder)
-    if permissive and deck.suffix.lower() not in FOREIGN:
+    if permissive and not is_foreign(deck):
         raise InputError(f"--permissive is for files of other programs ({' '.join(FOREIGN)})")
     with shown(f"reading {deck.name}") as watch, TemporaryDirectory() as scratch:
         model, results, job = exported(

@@ -8,10 +8,10 @@ import click
 from trunnion.commands.shared import (
     DECK,
     FOLDER,
-    FOREIGN,
     SOLVED,
     InputError,
     beside,
+    is_foreign,
     read_model,
     refuse_unwritable,
     say,
@@ -94,8 +94,7 @@ def exported(
     from trunnion.exports import build_job
     from trunnion.exports.refusals import ExportError
 
-    foreign = deck.suffix.lower() in FOREIGN
-    model = read_model(deck, permissive=permissive and foreign, options=options)
+    model = read_model(deck, permissive=permissive and is_foreign(deck), options=options)
     results = solve_model(model, watch=watch)
     try:
         job = build_job(model, results, cases, program=program, permissive=leave_out)

@@ -49,6 +49,11 @@ def further_options(command: Callable[..., int]) -> Callable[..., int]:
     return command
 
 
+def is_foreign(deck: Path) -> bool:
+    """Tell whether a file is one of another program; without numpy, unlike `formats.is_foreign`."""
+    return deck.suffix.lower() in FOREIGN
+
+
 class InputError(Exception):
     """The command cannot be done as it stands: exit 2."""
 

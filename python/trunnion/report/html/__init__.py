@@ -45,6 +45,7 @@ def files(results: Results, model: Model, stem: str) -> dict[str, bytes]:
         title=results.title or stem,
         cases=[(c.name, c.text, c.name not in bad, bad.get(c.name)) for c in cases],
         worst=max((c.certificate.worst for c in cases if c.certificate), default=None),
+        origin=model.origin,
         warnings=all_warnings(results, units),
         deck=model.deck(),
         data=embedded(data),
