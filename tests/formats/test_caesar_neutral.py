@@ -702,6 +702,19 @@ def test_hangers_to_be_designed_and_several_at_one_place(version):
     assert (hangers[1].k, hangers[1].load, hangers[1].design) == (2e4, 8000.0, None)
 
 
+def test_a_hanger_that_nothing_moves_is_named_and_a_load_without_rate_is_constant():
+    c = job()
+    c.add(10, 20, dx=6000.0, t1=0.0, t2=0.0, RESTRANT=[slot(10, ANC)])
+    c.hangers = [{"node": 20}]
+    assert "node 20: hanger to be designed in a job without" in " ".join(problems_of(c))
+    (rest,) = (s for s in model_of(c, permissive=True).supports if s.node == "20")
+    assert [d.word for d in rest.directions] == ["+Y"]
+    c.hangers = [{"node": 20, "cold": 5000.0}]
+    result = imported(c)
+    assert any("it is a constant support" in a.text for a in result.assumed)
+    assert [s.k for s in result.model.supports if s.kind == "hanger"] == [0.0]
+
+
 def test_hangers_without_tags_are_read_below_elements_with_names():
     """Widths may mix between version 7 and 11: the lines that are there decide."""
     c = job(11.0)

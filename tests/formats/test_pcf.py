@@ -154,6 +154,15 @@ def test_a_spring_is_a_hanger_to_be_designed(load):
     assert (given.load, given.k, given.design) == (5000.0, 50e3, None)
 
 
+def test_a_spring_without_a_temperature_is_named_and_taken_as_a_rest(load):
+    table = TABLE.replace('T1 = "150C"\n', "")
+    text = STRAIGHT + support((1000, 0, 0), "SPRG", "UP")
+    with pytest.raises(DeckError, match="a spring to be selected, and no temperature: give T1"):
+        load(text, table)
+    (rest,) = load(text, table, permissive=True).model.supports
+    assert [d.word for d in rest.directions] == ["+Z"]
+
+
 def test_flanges_and_valves_keep_their_names(whole):
     bodies = {(p.start, p.end): p.body for p in whole.model.pipes if p.rigid and p.weight}
     assert bodies["100", "110"] == bodies["380", "390"] == "FLANGE"
