@@ -592,8 +592,17 @@ def test_an_unknown_material_is_named_once():
     for n in range(3):
         c.add(10 + n, 11 + n, dx=1000.0, material=777, RESTRANT=[slot(10, ANC)] if not n else [])
     (problem,) = problems_of(c)
-    assert "element 10-11: material 777 is not known; taken as carbon steel" in problem
+    said = "element 10-11: material 777 is not known, and its expansion not in the file; taken as"
+    assert said in problem
     assert len(imported(c, permissive=True).left_out) == 1
+
+
+@pytest.mark.parametrize(("e", "said"), [(203400.0, False), (0.0, True)])
+def test_an_unknown_material_that_stays_cold_needs_its_constants_alone(e, said):
+    c = job()
+    cold = {"t1": 0.0, "t2": 21.5}
+    c.add(10, 20, dx=1000.0, material=777, e=e, **cold, RESTRANT=[slot(10, ANC)])
+    assert bool(imported(c, permissive=True).left_out) == said
 
 
 def test_lining_and_cladding_are_weights():
