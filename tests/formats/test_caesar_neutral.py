@@ -10,7 +10,7 @@ from dataclasses import replace
 
 import pytest
 from cii import ENGLISH, ENGLISH_LABELS, Cii
-from cii_jobs import ANC, GUI, LIM, RESTING, VERSIONS, Y, everything, job, slot
+from cii_jobs import ANC, GUI, LIM, RESTING, VERSIONS, Y, crowded, everything, job, slot
 
 import trunnion
 from trunnion.deck.reader import read_text
@@ -147,6 +147,22 @@ def test_all_versions_of_one_job_give_one_model():
     assert unnamed == ["20", "50"]
     assert [s.directions for s in old.supports] == [s.directions for s in mid.supports]
     assert [replace(p, body="") for p in mid.pipes] == old.pipes
+
+
+@pytest.mark.parametrize("made", [everything, crowded])
+def test_versions_between_give_the_models_of_those_that_were_seen(made):
+    def model(version):
+        read_ = model_of(made(version), permissive=True)
+        return replace(read_, origin=None)
+
+    assert model(7.0) == model(7.01)
+    for version in (8.1, 9.0, 9.1, 10.0):
+        assert model(version) == model(11.0)
+    unlike = {"materials": {}}  # ASME II-D from 12 on
+    for version in (12.0, 13.0):
+        assert replace(model(version), **unlike) == replace(model(11.0), **unlike)
+    for version in (14.0, 15.0):
+        assert model(version) == model(15.01)
 
 
 def test_comments_say_what_came_from_where():
