@@ -601,6 +601,15 @@ def test_a_csv_table_gives_walls_by_spec_item_and_bore(load):
     assert sorted(s.wall for s in sections.values()) == [0.0065, 0.009]
 
 
+def test_components_without_the_temperature_of_others_are_named(load):
+    text = STRAIGHT + "PIPELINE-REFERENCE LINE-B\n    PIPING-SPEC CS2\n"
+    text += pipe((3000, 0, 0), (4000, 0, 0))
+    table = '[defaults]\nMATERIAL = "A106-B"\nSCH = "40"\n[[rule]]\nspec = "CS2"\nT1 = "200C"\n'
+    imported = load(text, table)
+    assert "T1 of PIPE of line 10 and of 1 more is not given: they stay cold" in assumed(imported)
+    assert [p.operation.t["1"] for p in imported.model.pipes] == [20.0, 20.0, 200.0]
+
+
 def test_attributes_mean_what_the_table_says(load):
     table = '[attributes]\nCOMPONENT-ATTRIBUTE1 = "P1"\nCOMPONENT-ATTRIBUTE4 = "WALL"\n'
     table += 'COMPONENT-ATTRIBUTE2 = "T1"\nR2_MATERIAL = "MATERIAL"\n'
