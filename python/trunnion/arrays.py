@@ -16,6 +16,8 @@ from numpy.typing import NDArray
 from trunnion.frozen import frozen
 
 if TYPE_CHECKING:
+    from pandas import DataFrame
+
     from trunnion.results.tables import Table
 
 F8 = NDArray[np.float64]
@@ -577,3 +579,16 @@ class Results:
         from trunnion.results.tables import envelope
 
         return envelope(self)
+
+    def to_pandas(self) -> "dict[str, DataFrame]":
+        """Every table as a pandas.DataFrame by its name, the cases below each other.
+
+        See `results.frames.frames`, which says what there is.
+
+        Raises
+        ------
+        ImportError : pandas is not installed (extra pandas).
+        """
+        from trunnion.results.frames import frames
+
+        return frames(self)

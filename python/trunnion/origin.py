@@ -3,11 +3,15 @@
 The reports print this on top: a reader must see at once what the numbers do not contain.
 """
 
-from collections.abc import Iterator
+from collections import Counter
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 
-from trunnion.errors import DeckError, ModelError
+from trunnion.errors import DeckError, ModelError, Problem
 from trunnion.frozen import frozen
+
+STRUCTURE = "structure"
+WHOLE = (STRUCTURE, "cases", "model", "every variant")  # places that are no line of a deck
 
 
 @frozen
@@ -56,17 +60,43 @@ def origin_lines(origin: Origin) -> list[str]:
 
 
 @contextmanager
-def telling(origin: Origin | None) -> Iterator[None]:
+def telling(origin: Origin | None, deck: str = "") -> Iterator[None]:
     """Add what is missing in a model to the errors that it makes, as a note of the exception.
 
-    A line that is cut at a gap moves freely: the mechanism alone would not say why.
+    A line that is cut at a gap moves freely: the mechanism alone would not say why.  Errors of
+    the model as a whole, which have no line, get the name of the deck.
     """
     try:
         yield
     except (DeckError, ModelError) as error:
+        told = type(error)(_named(error.problems, deck))
+        for note in getattr(error, "__notes__", ()):
+            told.add_note(note)
         if origin is not None:
-            error.add_note("\n".join(origin_lines(origin)))
-        raise
+            told.add_note("\n".join(origin_lines(origin)))
+        raise told from error
+
+
+def _named(problems: Sequence[Problem], deck: str) -> list[Problem]:
+    """Put the name of a deck before what has no line of it; say a motion of one name once.
+
+    Motions that differ only in the point that they turn about have the same name.
+    """
+    count = Counter(problem.text for problem in problems if problem.place == STRUCTURE)
+    found = []
+    for problem in problems:
+        place, text = problem.place, problem.text
+        if place == STRUCTURE:
+            n = count.pop(text, 0)
+            if not n:
+                continue
+            if n > 1:
+                motion, colon, why = text.partition(": ")
+                text = f"{motion} ({n} ways, about different points){colon}{why}"
+        if deck and place in WHOLE:
+            place = f"{deck}: {place}"
+        found.append(Problem(place, text, problem.marker))
+    return found
 
 
 @frozen

@@ -4,7 +4,7 @@ TRUNNION_FUZZ=10000 makes so many variants of each version; a failure prints its
 """
 
 import pytest
-from cii_jobs import everything
+from cii_jobs import crowded, everything
 from mutants import survive
 
 from trunnion.errors import DeckError
@@ -19,8 +19,9 @@ def deck(data, permissive):
 
 
 @pytest.mark.parametrize("version", [7.01, 11.0, 15.01])
-def test_a_damaged_file_gives_a_model_or_a_named_error(version):
-    survive(everything(version).text().encode("cp1252"), deck, 150)
+@pytest.mark.parametrize("made", [everything, crowded])
+def test_a_damaged_file_gives_a_model_or_a_named_error(version, made):
+    survive(made(version).text().encode("cp1252"), deck, 150)
 
 
 @pytest.mark.parametrize("field", range(19))

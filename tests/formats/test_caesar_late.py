@@ -12,6 +12,7 @@ from input_xml import document, element, restraints, tag
 
 import trunnion
 from trunnion.deck.reader import read_text
+from trunnion.errors import DeckError
 from trunnion.formats import Findings
 from trunnion.formats.caesar import read
 from trunnion.formats.caesar_xml import read as read_xml
@@ -115,3 +116,11 @@ def test_a_users_material_expands_by_the_name_of_its_standard():
     assert any(
         "material 501 (1.7338S-40-200) expands as low chrome" in a.text for a in result.assumed
     )
+
+
+def test_a_tee_on_a_run_without_a_wall_is_named():
+    c = tee()
+    for made in c.elements[:2]:
+        made["wall"] = 0.0
+    with pytest.raises(DeckError, match="element 10-20: no pipe has an OD of 114"):
+        model_of(c)

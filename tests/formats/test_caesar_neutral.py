@@ -10,7 +10,7 @@ from dataclasses import replace
 
 import pytest
 from cii import ENGLISH, ENGLISH_LABELS, Cii
-from cii_jobs import ANC, GUI, LIM, RESTING, VERSIONS, Y, everything, job, slot
+from cii_jobs import ANC, GUI, LIM, RESTING, VERSIONS, Y, crowded, everything, job, slot
 
 import trunnion
 from trunnion.deck.reader import read_text
@@ -19,10 +19,12 @@ from trunnion.formats import Findings
 from trunnion.formats.caesar import read
 from trunnion.formats.source import source_of
 from trunnion.model import Direction, HangerDesign, Joint, Operation, Uniform
+from trunnion.system.geometry import place
 
 
 def imported(cii, *, permissive=False, file="line.cii"):
-    source = source_of(cii.text().encode("cp1252"), file)
+    text = cii if isinstance(cii, str) else cii.text()
+    source = source_of(text.encode("cp1252"), file)
     result = read(source, Findings(source, permissive=permissive))
     assert read_text(result.deck()) == result.model  # deck -> model is the identity
     assert read_text(result.deck()).deck() == result.model.deck()
@@ -37,6 +39,12 @@ def problems_of(cii, **keys):
     with pytest.raises(DeckError) as caught:
         imported(cii, **keys)
     return [str(problem) for problem in caught.value.problems]
+
+
+def job_of_one(**keys):
+    c = job(**keys)
+    c.add(10, 20, dx=1000.0, RESTRANT=[slot(10, ANC)])
+    return c
 
 
 @pytest.mark.parametrize("version", VERSIONS)
@@ -139,6 +147,22 @@ def test_all_versions_of_one_job_give_one_model():
     assert unnamed == ["20", "50"]
     assert [s.directions for s in old.supports] == [s.directions for s in mid.supports]
     assert [replace(p, body="") for p in mid.pipes] == old.pipes
+
+
+@pytest.mark.parametrize("made", [everything, crowded])
+def test_versions_between_give_the_models_of_those_that_were_seen(made):
+    def model(version):
+        read_ = model_of(made(version), permissive=True)
+        return replace(read_, origin=None)
+
+    assert model(7.0) == model(7.01)
+    for version in (8.1, 9.0, 9.1, 10.0):
+        assert model(version) == model(11.0)
+    unlike = {"materials": {}}  # ASME II-D from 12 on
+    for version in (12.0, 13.0):
+        assert replace(model(version), **unlike) == replace(model(11.0), **unlike)
+    for version in (14.0, 15.0):
+        assert model(version) == model(15.01)
 
 
 def test_comments_say_what_came_from_where():
@@ -266,6 +290,16 @@ def test_rotational_stiffness_and_gap_have_their_units():
     assert direction.gap == pytest.approx((math.radians(2.0),) * 2)
 
 
+def test_a_rotation_of_the_usual_stiffness_is_rigid():
+    c = job()
+    usual = 0.113 * 1e12  # in-lb/deg there
+    codes = [slot(20, 5, k=usual), slot(20, 6, k=0.09 * usual)]
+    c.add(10, 20, dx=1000.0, RESTRANT=[slot(10, ANC), *codes])
+    one, other = model_of(c).supports[1].directions
+    assert one.k is None
+    assert other.k == pytest.approx(0.09 * usual * 180 / math.pi)
+
+
 def test_skewed_cosines_make_a_vector_and_placeholders_do_not():
     c = job()
     skew = slot(20, 13, cosines=(0.6, 0.0, 0.8), mu=0.3)
@@ -285,12 +319,38 @@ def test_rigid_is_from_a_tenth_of_the_default_and_for_zero():
     assert any("stiffness of 0 are rigid" in a.text for a in result.assumed)
 
 
-@pytest.mark.parametrize("pressure", [0.0, 2000.0])
-def test_a_file_with_pressure_says_that_bourdon_effects_are_off(pressure):
-    c = job()
-    c.add(10, 20, dx=1000.0, p1=pressure, p2=0.0, RESTRANT=[slot(10, ANC)])
-    result = imported(c)
-    assert any("BOURDON=OPENING" in a.text for a in result.assumed) == (pressure > 0.0)
+@pytest.mark.parametrize(("option", "setting"), [(0, "OFF"), (1, "ELONGATION"), (2, "OPENING")])
+@pytest.mark.parametrize("version", VERSIONS)
+def test_bourdon_effects_are_those_of_the_options(version, option, setting):
+    result = imported(job_of_one(version=version, bourdon=option))
+    assert result.model.settings.bourdon == setting
+    assert (f"(BOURDON={setting})" in result.deck()) == (option > 0)
+    assert not any("Bourdon" in a.text for a in result.assumed)
+
+
+def test_pipe_under_pressure_is_as_long_as_lame_has_it_where_the_file_asks_for_it():
+    c = job(bourdon=1)
+    c.add(10, 20, dx=6000.0, t1=0.0, t2=0.0, p1=100.0, p2=0.0, RESTRANT=[slot(10, ANC)])
+    model = model_of(c)
+    results = trunnion.solve(model)
+    bore, e = 273.05 - 2 * 9.271, model.materials["A106-B"].e
+    assert e == pytest.approx(203400e6, rel=1e-4)
+    strain = 10e6 / e * (1 - 2 * 0.292) * bore**2 / (273.05**2 - bore**2)  # closed ends
+    assert results["SUS"].displacements["20"]["ux"] == pytest.approx(6.0 * strain, rel=1e-9)
+
+
+def test_a_file_that_ends_before_its_options_says_what_bourdon_effects_are_taken_as():
+    lines = job_of_one().text().split("\r\n")
+    end = lines.index("#$ UNITS   ")
+    result = imported("\r\n".join([*lines[: end - 4], *lines[end:]]))
+    assert any("does not say whether Bourdon" in a.text for a in result.assumed)
+
+
+def test_options_that_change_the_answer_are_named():
+    found = " ".join(problems_of(job_of_one(bowing=20.0, stiffening=1)))
+    assert "job: thermal bowing is on" in found
+    assert "job: stress stiffening by pressure is on" in found
+    assert "3 is no choice of Bourdon effects" in " ".join(problems_of(job_of_one(bourdon=3)))
 
 
 def test_a_restraint_given_on_two_elements_is_one_support():
@@ -314,6 +374,31 @@ def test_cnodes_tie_nodes_and_place_parts():
         ("10", (0.0, 0.0, 0.0)),
         ("120", (1.0, 0.0, 0.0)),
     ]
+
+
+def test_supports_may_stand_on_a_node_that_is_only_a_cnode():
+    # a rest with a gap of 1 mm on a column of 1e6 N/m: both carry the same, the column yields
+    c = job()
+    column = [slot(120, 3, k=1e4, cosines=Y), slot(120, 2), slot(120, 4)]
+    rest = slot(20, RESTING, cosines=Y, cnode=120, gap=1.0)
+    c.add(10, 20, dx=6000.0, t1=0.0, t2=0.0, RESTRANT=[slot(10, ANC), rest, *column])
+    results = trunnion.solve(model_of(c))
+    load = results["SUS"].supports["20"]["fy"]
+    assert results["SUS"].supports["120"]["fy"] == pytest.approx(load, rel=1e-9)
+    assert results["SUS"].displacements["20"]["uy"] == pytest.approx(-1e-3 - load / 1e6, rel=1e-4)
+    c = job()
+    c.add(10, 20, dx=6000.0, RESTRANT=[slot(10, ANC), slot(20, RESTING, cnode=7), slot(7, GUI)])
+    assert "node 7: GUI where no element has a length" in " ".join(problems_of(c))
+
+
+def test_a_cnode_that_nothing_holds_is_named_and_taken_to_ground():
+    c = job()
+    c.add(10, 20, dx=6000.0, RESTRANT=[slot(10, ANC), slot(20, RESTING, cosines=Y, cnode=900)])
+    c.hangers = [{"node": 20, "k": 100.0, "cold": 4000.0, "cnode": 901}]
+    found = problems_of(c)
+    for said in ("restraint +Y with CNODE 900, which no element", "hanger with CNODE 901"):
+        assert any(said in text for text in found)
+    assert all(s.cnode is None for s in model_of(c, permissive=True).supports)
 
 
 def test_coordinates_place_disconnected_parts():
@@ -368,6 +453,87 @@ def test_a_rigid_at_a_bend_gets_a_pipe_for_its_tangent():
     assert (rigid.start, rigid.end, rigid.rigid) == ("20T", "30", True)
     assert pipe.delta == pytest.approx((0.0, 0.0, 0.381))
     assert rigid.delta == pytest.approx((0.0, 0.0, 0.5))
+
+
+@pytest.mark.parametrize("version", [11.0, 15.01])
+def test_a_node_at_any_angle_of_a_bend_cuts_its_arc_and_changes_nothing_else(version):
+    def line(angle):
+        c = job(version)
+        nodes = ((0.0, 18), (angle, 19), (-2.0202, 17))
+        bend = {"radius": 381.0, "nodes": nodes, "flanges": 1}
+        c.add(10, 20, dx=2000.0, RESTRANT=[slot(10, ANC), slot(19, 3, k=1e-3)], BEND=bend)
+        c.add(20, 30, dz=2000.0, RESTRANT=[slot(30, ANC)])
+        return model_of(c)
+
+    model = line(30.0)
+    assert [(p.start, p.end) for p in model.pipes] == [("10", "31"), ("31", "20"), ("20", "30")]
+    assert [(b.node, b.radius) for b in model.bends] == [("31", 0.381), ("20", 0.381)]
+    assert model.bends[0].k == model.bends[1].k
+    assert model.supports[1].node == "31F"
+    points = place(model, []).points
+    middle = (2.0 - 0.381 + 0.381 * math.sin(math.pi / 6), 0.0, 0.381 * (1 - math.cos(math.pi / 6)))
+    assert points["31F"] == pytest.approx(middle, abs=1e-9)
+    assert points["31N"] == pytest.approx((1.619, 0.0, 0.0), abs=1e-9)
+    assert points["20F"] == pytest.approx((2.0, 0.0, 0.381), abs=1e-9)
+    cut, whole = (trunnion.solve(m) for m in (model, line(45.0)))
+    for case in ("SUS", "OPE1"):
+        loads, others = (r[case].supports.values[[0, -1], :6] for r in (cut, whole))
+        assert loads == pytest.approx(others, rel=1e-6, abs=1e-6 * abs(others).max())
+
+
+def after_a_bend(**body):
+    c = job()
+    c.add(10, 20, dx=2000.0, RESTRANT=[slot(10, ANC)], BEND={"radius": 381.0})
+    c.add(20, 30, dz=881.0, **body)
+    c.add(30, 40, dy=1000.0, od=219.1, wall=8.18)
+    return c
+
+
+def test_a_reducer_or_joint_that_leaves_a_bend_begins_behind_its_tangent():
+    model = model_of(after_a_bend(REDUCERS=(219.1, 8.18)))
+    _, tangent, cone, after = model.pipes
+    assert (tangent.start, tangent.end, cone.start, cone.end) == ("20", "20T", "20T", "30")
+    assert tangent.section == cone.section
+    assert cone.reducer.section == after.section
+    assert cone.delta == pytest.approx((0.0, 0.0, 0.5))
+    _, tangent, joint, _ = model_of(after_a_bend(EXPJT=(1e3, 1e3, 0.0, 0.0, 0.0))).pipes
+    assert (tangent.joint, joint.joint.axial) == (None, 1e5)
+    assert joint.delta == pytest.approx((0.0, 0.0, 0.5))
+    metal, cover = (273.05**2 - 254.508**2) * 7833.44, (423.05**2 - 273.05**2) * 140.0
+    weight = 0.5 * math.pi / 4 * (metal + cover) * 1e-6 * 9.80665
+    assert joint.weight == pytest.approx(weight, rel=1e-6)
+
+
+def test_a_body_that_ends_in_a_bend_or_is_nothing_but_its_tangent_is_named():
+    c = job()
+    bend = {"BEND": {"radius": 381.0}}
+    c.add(10, 20, dx=2000.0, RESTRANT=[slot(10, ANC)], REDUCERS=(219.1, 8.18), **bend)
+    c.add(20, 30, dz=381.0, RIGID=(900.0, 1))
+    c.add(30, 40, dz=1000.0)
+    found = " ".join(problems_of(c))
+    assert "element 10-20: reducer that ends in a bend" in found
+    assert "element 20-30: rigid that is no longer than the tangent of a bend" in found
+    assert not any(p.rigid or p.reducer for p in model_of(c, permissive=True).pipes)
+
+
+def test_a_guide_follows_a_body_behind_its_bend_and_an_owner_behind_its_link():
+    c = after_a_bend(RIGID=(1000.0, 2), RESTRANT=[slot(30, GUI), slot(30, LIM)])
+    guide, stop = model_of(c).supports[1].directions
+    assert (guide.along, stop.along) == ("20T-30", "20T-30")
+    c = job()
+    c.add(10, 20, dx=2000.0, RESTRANT=[slot(10, ANC)])
+    owned = {"OFFSETS": (0.0, 0.0, 0.0, 0.0, 200.0, 0.0), "RIGID": (900.0, 1)}
+    c.add(20, 30, dz=1000.0, RESTRANT=[slot(30, GUI), slot(30, LIM)], **owned)
+    c.add(30, 40, dx=1000.0)
+    assert [d.word for d in model_of(c).supports[1].directions] == ["X", "(0,0.196116,0.980581)"]
+
+
+def test_the_tangent_before_a_rigid_carries_the_uniform_load_of_its_element():
+    c = job()
+    load = [0.0, -3.0, *[0.0] * 34]
+    c.add(10, 20, dx=2000.0, RESTRANT=[slot(10, ANC)], BEND={"radius": 381.0}, UNIFORM=load)
+    c.add(20, 30, dz=881.0, RIGID=(1000.0, 2))
+    assert [[q.load for q in pipe.uniform] for pipe in model_of(c).pipes] == [[(0, -300, 0)]] * 3
 
 
 def test_branches_at_a_bend_leave_from_its_points():
@@ -442,8 +608,17 @@ def test_an_unknown_material_is_named_once():
     for n in range(3):
         c.add(10 + n, 11 + n, dx=1000.0, material=777, RESTRANT=[slot(10, ANC)] if not n else [])
     (problem,) = problems_of(c)
-    assert "element 10-11: material 777 is not known; taken as carbon steel" in problem
+    said = "element 10-11: material 777 is not known, and its expansion not in the file; taken as"
+    assert said in problem
     assert len(imported(c, permissive=True).left_out) == 1
+
+
+@pytest.mark.parametrize(("e", "said"), [(203400.0, False), (0.0, True)])
+def test_an_unknown_material_that_stays_cold_needs_its_constants_alone(e, said):
+    c = job()
+    cold = {"t1": 0.0, "t2": 21.5}
+    c.add(10, 20, dx=1000.0, material=777, e=e, **cold, RESTRANT=[slot(10, ANC)])
+    assert bool(imported(c, permissive=True).left_out) == said
 
 
 def test_lining_and_cladding_are_weights():
@@ -552,7 +727,61 @@ def test_hangers_to_be_designed_and_several_at_one_place(version):
     assert (hangers[1].k, hangers[1].load, hangers[1].design) == (2e4, 8000.0, None)
 
 
-def test_strains_and_offsets_of_a_bend_itself_are_named():
+def test_a_hanger_that_nothing_moves_is_named_and_a_load_without_rate_is_constant():
+    c = job()
+    c.add(10, 20, dx=6000.0, t1=0.0, t2=0.0, RESTRANT=[slot(10, ANC)])
+    c.hangers = [{"node": 20}]
+    assert "node 20: hanger to be designed in a job without" in " ".join(problems_of(c))
+    (rest,) = (s for s in model_of(c, permissive=True).supports if s.node == "20")
+    assert [d.word for d in rest.directions] == ["+Y"]
+    c.hangers = [{"node": 20, "cold": 5000.0}]
+    result = imported(c)
+    assert any("it is a constant support" in a.text for a in result.assumed)
+    assert [s.k for s in result.model.supports if s.kind == "hanger"] == [0.0]
+
+
+def test_hangers_without_tags_are_read_below_elements_with_names():
+    """Widths may mix between version 7 and 11: the lines that are there decide."""
+    c = job(11.0)
+    c.add(10, 20, dx=6000.0, RESTRANT=[slot(10, ANC)])
+    c.hangers = [{"node": n, "k": 100.0, "cold": 4000.0 + n} for n in (10, 20)]
+    lines = c.text().split("\r\n")
+    start = next(i for i, x in enumerate(lines) if x.startswith("#$ MISCEL_1"))
+    tags = [i for i in range(start, len(lines)) if lines[i] == c.string("")]
+    assert len(tags) == 4
+    short = [x for i, x in enumerate(lines) if i not in tags]
+    hangers = [s for s in model_of("\r\n".join(short)).supports if s.kind == "hanger"]
+    assert [(s.node, s.k, s.load) for s in hangers] == [("10", 1e4, 4010.0), ("20", 1e4, 4020.0)]
+
+
+def test_the_load_and_the_space_that_a_user_gives_a_hanger_are_named():
+    c = job_of_one()
+    c.hangers = [{"node": 20, "user": 5000.0, "space": 1200.0}]
+    assert any("an operating load of 5000 N" in text for text in problems_of(c))
+    result = imported(c, permissive=True)
+    assert any("space available" in a.text for a in result.assumed)
+
+
+def test_expansions_instead_of_temperatures_move_the_pipe_by_just_that_much():
+    # 10-20 has expansions in T1 and T2, 20-30 temperatures: A106 B expands by 1.76e-3 to 170 C
+    c = job()
+    c.add(10, 20, dx=6000.0, t1=0.002, t2=-0.0005, p1=0.0, p2=0.0, RESTRANT=[slot(10, ANC)])
+    c.add(20, 30, dx=6000.0, p1=0.0, p2=0.0)
+    results = trunnion.solve(model_of(c))
+    hot, cold = (results[case].displacements for case in ("OPE1", "OPE2"))
+    assert hot["20"]["ux"] == pytest.approx(6.0 * 0.002, rel=1e-9)
+    assert cold["20"]["ux"] == pytest.approx(-6.0 * 0.0005, rel=1e-9)
+    assert hot["30"]["ux"] - hot["20"]["ux"] == pytest.approx(6.0 * 1.76e-3, rel=0.02)
+
+
+def test_a_wall_that_nobody_makes_is_reported():
+    c = job()
+    c.add(10, 20, dx=6000.0, wall=0.01, RESTRANT=[slot(10, ANC)])
+    said = " ".join(a.text for a in imported(c).assumed)
+    assert "a wall of 0.01 mm at an OD of 273.05 mm looks like a stand-in" in said
+
+
+def test_strains_beside_temperatures_and_offsets_of_a_bend_itself_are_named():
     c = job()
     off = {"OFFSETS": (0.0, 0.0, 0.0, 0.0, 100.0, 0.0)}
     c.add(10, 20, dx=1000.0, RESTRANT=[slot(10, ANC)])
@@ -573,6 +802,24 @@ def test_an_offset_at_the_other_end_of_a_bend_is_a_stiff_link_without_weight():
     assert (link.start, link.end, link.delta) == ("20", "41", (0.0, 0.0, 0.1365))
     assert (link.rigid, link.weight) == (True, 0.0)
     assert (pipe.start, pipe.end, pipe.delta) == ("41", "30", (0.0, 0.0, 1.8635))
+
+
+@pytest.mark.parametrize(
+    "body",
+    [{"RIGID": (2100.0, 1)}, {"REDUCERS": (219.1, 8.18)}, {"EXPJT": (1e3, 1e3, 0.0, 0.0, 0.0)}],
+)
+def test_the_offset_of_a_body_is_a_stiff_link_without_weight(body):
+    c = job()
+    c.add(10, 20, dx=1000.0, RESTRANT=[slot(10, ANC)])
+    arms = (0.0, 0.0, 136.5, 0.0, 200.0, 0.0)
+    c.add(20, 30, dz=2000.0, OFFSETS=arms, **body)
+    c.add(30, 40, dz=500.0, od=219.1, wall=8.18)
+    _, first, made, last, _ = model_of(c).pipes
+    assert (first.start, first.end, first.delta) == ("20", "41", (0.0, 0.0, 0.1365))
+    assert (made.start, made.end, made.delta) == ("41", "42", (0.0, 0.2, 1.8635))
+    assert (last.start, last.end, last.delta) == ("42", "30", (0.0, -0.2, 0.0))
+    assert [link.weight for link in (first, last)] == [0.0, 0.0]
+    assert made.rigid or made.reducer or made.joint
 
 
 def bent(**bend):
@@ -711,9 +958,7 @@ def test_what_is_wrong_is_named(old, new, said):
 
 
 def test_a_pointer_beyond_its_array_and_cut_off_lines_are_named():
-    c = job()
-    c.add(10, 20, dx=1000.0, RESTRANT=[slot(10, ANC)])
-    lines = c.text().split("\r\n")
+    lines = job_of_one().text().split("\r\n")
     at = next(i for i, x in enumerate(lines) if x.startswith("#$ RESTRANT"))
     source = source_of("\n".join(lines[: at + 5] + lines[at + 6 :]).encode(), "line.cii")
     with pytest.raises(DeckError, match="RESTRANT has 23 lines"):

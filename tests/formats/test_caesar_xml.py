@@ -218,6 +218,28 @@ def test_a_spring_without_its_rate_is_named(load):
         load(one(hanger))
 
 
+def test_a_hanger_to_be_designed_keeps_its_limits(load):
+    limits = {"RIGID_SUP": 3.0, "MAX_TRAVEL": 50.0, "LOAD_VAR": 20.0, "AVAIL_SPACE": 9999.990234}
+    hanger = tag("HANGER", NODE=20, COLD_LOAD=None, HGR_TABLE="1", **limits)
+    (design,) = (
+        s.design for s in load(one(hanger, TEMP_EXP_C1=99.0)).model.supports if s.design is not None
+    )
+    assert (design.rod, design.most, design.variation) == (0.003, 0.05, 0.2)
+    endless = hanger.replace('MAX_TRAVEL="50.000000"', 'MAX_TRAVEL="9999.990234"')
+    (design,) = (
+        s.design
+        for s in load(one(endless, TEMP_EXP_C1=99.0)).model.supports
+        if s.design is not None
+    )
+    assert design.most is None
+
+
+def test_the_xml_does_not_say_whether_bourdon_effects_are_on(load):
+    (said,) = (a for a in load(line("14.00")).assumed if "Bourdon" in a.text)
+    assert "does not say whether Bourdon effects of pressure are on" in said.text
+    assert "DEFAULT BOURDON=ELONGATION" in said.text
+
+
 def test_counts_of_the_head_are_checked(load):
     with pytest.raises(DeckError, match="NUMELT is 7, there are 5 PIPINGELEMENT"):
         load(line("14.00").replace('NUMELT="5"', 'NUMELT="7"'))
@@ -237,8 +259,10 @@ def test_the_diameter_that_changes_without_a_reducer_is_reported(load):
 
 
 def test_small_temperatures_are_strains(load):
-    with pytest.raises(DeckError, match="element 10-20: T1 is an expansion"):
-        load(one(TEMP_EXP_C1=0.0012))
+    imported = load(one(TEMP_EXP_C1=0.0012))
+    results = trunnion.solve(imported.model)
+    assert results["OPE"].displacements["30"]["ux"] == pytest.approx(2.0 * 0.0012, rel=1e-9)
+    assert "expansions (length by length)" in " ".join(a.text for a in imported.assumed)
 
 
 def test_insulation_without_density_has_that_of_the_program(load):

@@ -4,7 +4,7 @@ TRUNNION_FUZZ=10000 makes so many variants of each version; a failure prints its
 """
 
 import pytest
-from input_xml import line
+from input_xml import crowded, line
 from mutants import survive
 
 from trunnion.errors import DeckError, ModelError
@@ -19,9 +19,10 @@ def deck(data, permissive=False):
 
 
 @pytest.mark.parametrize("version", ["7.00", "11.00", "14.00"])
-def test_a_damaged_file_gives_a_model_or_a_named_error(version):
+@pytest.mark.parametrize("made", [line, crowded])
+def test_a_damaged_file_gives_a_model_or_a_named_error(version, made):
     # one attribute a line: damage of words and lines meets tags and values alike
-    text = line(version).replace(' NODE="', '\nNODE="').replace("><", ">\n<")
+    text = made(version).replace(' NODE="', '\nNODE="').replace("><", ">\n<")
     survive(text.encode(), deck, 150)
 
 

@@ -154,6 +154,15 @@ def test_a_spring_is_a_hanger_to_be_designed(load):
     assert (given.load, given.k, given.design) == (5000.0, 50e3, None)
 
 
+def test_a_spring_without_a_temperature_is_named_and_taken_as_a_rest(load):
+    table = TABLE.replace('T1 = "150C"\n', "")
+    text = STRAIGHT + support((1000, 0, 0), "SPRG", "UP")
+    with pytest.raises(DeckError, match="a spring to be selected, and no temperature: give T1"):
+        load(text, table)
+    (rest,) = load(text, table, permissive=True).model.supports
+    assert [d.word for d in rest.directions] == ["+Z"]
+
+
 def test_flanges_and_valves_keep_their_names(whole):
     bodies = {(p.start, p.end): p.body for p in whole.model.pipes if p.rigid and p.weight}
     assert bodies["100", "110"] == bodies["380", "390"] == "FLANGE"
@@ -323,11 +332,20 @@ def test_a_cap_that_closes_nothing_is_free_and_reported(load):
         load(STRAIGHT + block("CAP", (9000, 0, 0)))
 
 
-def test_a_closed_end_position_is_no_open_end(load):
-    text = STRAIGHT + "END-POSITION-CLOSED\n    CO-ORDS 3000.0 0.0 0.0\n"
+@pytest.mark.parametrize("kind", ["CLOSED", "VENT", "DRAIN"])
+def test_an_end_in_the_air_is_no_open_end(load, kind):
+    text = STRAIGHT + f"END-POSITION-{kind}\n    CO-ORDS 3000.0 0.0 0.0\n"
     imported = load(text, anchors=("open-ends",))
     assert anchors(imported) == ["10"]
-    assert "is free; not for open-ends: END-POSITION-CLOSED" in assumed(imported)
+    assert f"is free; not for open-ends: END-POSITION-{kind}" in assumed(imported)
+
+
+def test_a_text_goes_on_in_a_continuation_record(load):
+    text = support((1000, 0, 0), "SKID", "DOWN").rstrip() + "\n    DESCRIPTION SHOE OF\n"
+    for indent in ("", "    "):
+        by_text = TABLE + '"SHOE OF TYPE 7" = "Z"\n'
+        imported = load(STRAIGHT + text + f"{indent}CONTINUATION TYPE 7\n", by_text)
+        assert imported.model.supports[-1].directions[0].word == "Z"
 
 
 def test_a_body_without_length_within_a_pipe_splits_it_under_its_mass(load):
@@ -438,6 +456,16 @@ def test_what_a_file_lacks_is_told_with_points_that_cannot_be_read(tmp_path):
         "END-POINT: 3OOO is no co",
         "its weight is not in the",
     ]
+
+
+def test_gaps_and_supports_wait_for_a_side_table_that_can_be_read(load):
+    text = UNKNOWN + pipe((6003, 0, 0), (7000, 0, 0)) + support((500, 0, 0), None, None, "CA-77")
+    with pytest.raises(DeckError) as error:
+        load(text, "mux = 1\n")
+    said = "\n".join(texts(error))
+    assert "mux is no part" in said
+    for later in ("gap of", "CA-77", "wall of bore"):
+        assert later not in said
 
 
 def test_faults_of_the_side_table_come_with_those_of_the_file(load):
@@ -573,6 +601,15 @@ def test_a_csv_table_gives_walls_by_spec_item_and_bore(load):
     assert sorted(s.wall for s in sections.values()) == [0.0065, 0.009]
 
 
+def test_components_without_the_temperature_of_others_are_named(load):
+    text = STRAIGHT + "PIPELINE-REFERENCE LINE-B\n    PIPING-SPEC CS2\n"
+    text += pipe((3000, 0, 0), (4000, 0, 0))
+    table = '[defaults]\nMATERIAL = "A106-B"\nSCH = "40"\n[[rule]]\nspec = "CS2"\nT1 = "200C"\n'
+    imported = load(text, table)
+    assert "T1 of PIPE of line 10 and of 1 more is not given: they stay cold" in assumed(imported)
+    assert [p.operation.t["1"] for p in imported.model.pipes] == [20.0, 20.0, 200.0]
+
+
 def test_attributes_mean_what_the_table_says(load):
     table = '[attributes]\nCOMPONENT-ATTRIBUTE1 = "P1"\nCOMPONENT-ATTRIBUTE4 = "WALL"\n'
     table += 'COMPONENT-ATTRIBUTE2 = "T1"\nR2_MATERIAL = "MATERIAL"\n'
@@ -617,6 +654,11 @@ def test_unknown_components_and_branch_bends_are_named(load):
 def test_a_file_cut_off_in_a_component_is_an_error(load):
     with pytest.raises(DeckError, match="PIPE of line 13: 1 END-POINT; a PIPE has 2"):
         load(STRAIGHT[: STRAIGHT.rindex("    END-POINT")])
+
+
+def test_a_file_may_begin_with_any_component(load):
+    with pytest.raises(DeckError, match="UNITS-BORE is missing"):
+        load(block("ELBOW", (0, 0, 0), (150, 150, 0), centre=(150, 0, 0)))
 
 
 def test_units_that_are_missing_are_an_error(load):

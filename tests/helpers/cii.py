@@ -58,6 +58,9 @@ class Cii:
     z_up: bool = False
     ambient: float = 21.1142
     defaults: dict = field(default_factory=dict)
+    bourdon: int = 0  # 0 none, 1 translation, 2 translation and rotation
+    bowing: float = 0.0  # thermal bowing
+    stiffening: int = 0  # stress stiffening
     unlike: tuple[str, ...] = ()  # arrays whose records are stored backwards
 
     def add(self, start, end, *, material=106, name="", like=True, **values):
@@ -249,11 +252,12 @@ class Cii:
             lines += [*self.reals([0.0] * 4), *self.reals([0.0] * 4)]
         if self.hangers:
             lines += self.hanger_lines()
-        options = "  " + f"{0:13d}" * 4
-        lines.append(options + f"{0.0:13.4f}{0:13d}")
+        # print forces, print alphas, Bourdon, branch errors, bowing, liberal allowables
+        options = "".join(f"{x:13d}" for x in (0, 0, self.bourdon, 2))
+        lines.append(f"  {options}{self.bowing:13.4f}{1:13d}")
         ambient = self.real(self.ambient) + self.real(12.0)
-        lines.append(f"  {0:13d}{0:13d}{ambient}{0:13d}{0:13d}")
-        lines.append(options + f"{0.0:13.4f}{0:13d}")
+        lines.append(f"  {0:13d}{self.stiffening:13d}{ambient}{0:13d}{0:13d}")
+        lines.append("  " + f"{0:13d}" * 4 + f"{0.25:13.4f}{3:13d}")
         if self.new:
             lines.append(f"  {0:13d}" + (f"{0:13d}" if self.version >= 14 else ""))
         return lines
@@ -264,8 +268,9 @@ class Cii:
         lines += self.integers([1, 0, 3, 0, 0])
         lines += self.integers(x["node"] for x in h)
         for x in h:
-            values = [x.get("k", 0.0), 25.0, 0.0, 0.0, x.get("cold", 0.0), x.get("hot", 0.0)]
-            values += [0.0, 9999.99, 0.0, 0.0, x.get("constant", 0.0)]
+            values = [x.get("k", 0.0), 25.0, 0.0, x.get("space", 0.0), x.get("cold", 0.0)]
+            values += [x.get("hot", 0.0), x.get("user", 0.0), 9999.99, 0.0, 0.0]
+            values += [x.get("constant", 0.0)]
             lines += self.reals(values if self.new else values[:10])
             if self.new:
                 lines += [self.string(x.get("tag", "")), self.string("")]

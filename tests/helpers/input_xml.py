@@ -150,3 +150,47 @@ def line(version):
         NUMFORCMNT=1,
         NOHGRS=0,
     )
+
+
+def crowded(version):
+    """A line with every child that an element can have, bodies with offsets, a CNODE, a nozzle."""
+    none = (0.0, 0.0, 0.0)
+    anchor = restraints(version, (10, 0, None, None, None, None, none, "A-10"))
+    joint = {"AXIAL_STIF": 100.0, "TRANS_STIF": 50.0, "BEND_STIF": None, "TORS_STIF": None}
+    bellows = tag("EXPANSIONJOINT", BEL_DIA=120.0, **joint)
+    size = {"DIAMETER": 114.300003, "WALL_THICK": 6.02, "TEMP_EXP_C1": 170.0, "PRESSURE1": 12.0}
+    steel = {"MODULUS": 203395.359375, "POISSONS": 0.292, "PIPE_DENSITY": 0.007833}
+    cover = {"INSUL_THICK": 50.0, "FLUID_DENSITY": 0.001, "MATERIAL_NUM": 106.0}
+    arms = {f"{end}{axis}": None for end in ("FROM", "TO") for axis in "XYZ"}
+    offset = tag("OFFSET", **{**arms, "FROMX": 100.0, "TOZ": 50.0})
+    cone = tag("REDUCER", DIAMETERS2=88.9, THICKNESS2=5.49, ALPHA=None, R1=None, R2=None)
+    small = {"DIAMETER": 88.900002, "WALL_THICK": 5.49}
+    load = tag("VECTOR", VECTOR_NUM="1", UX=0.0, UY=-1.0, UZ=0.0)
+    asked = {"RIGID_SUP": 3.0, "MAX_TRAVEL": 9999.990234, "FREEANCHOR1": 10.0, "DOFTYPE1": "1"}
+    hanger = tag("HANGER", NODE=60, COLD_LOAD=None, NUM_HGR=2.0, HGR_TABLE="7", **asked)
+    stops = restraints(
+        version,
+        (60, 17, None, 2.0, 0.3, 70, (0.0, 1.0, 0.0), "S-1"),
+        (60, 7, None, 3.0, None, None, (1.0, 0.0, 0.0), ""),
+        (60, 4, 100.0, 1.0, None, None, (1.0, 0.0, 0.0), ""),
+    )
+    flange = tag("RIGID", WEIGHT=300.0, TYPE="Flange Pair")
+    vector = {"DX": 1.0, **dict.fromkeys(("DY", "DZ", "RX", "RY", "RZ"))}
+    moved = tag("DISPLACEMENTS", tag("VECTOR", NUMBER="2", **vector), DISP_NUM="1", NODE_NUM=80)
+    checks = tag("SIF", SIF_NUM="1", NODE=80, TYPE=3) + tag("ALLOWABLESTRESS", PIPING_CODE=0.0)
+    nozzle = tag("WRC297_NOZZLE", NOZZLE_NODE=80, VESSEL_NODE=75)
+    bend = tag("BEND", RADIUS=133.350006, TYPE=1.0, ANGLE1=-2.0202, NODE1=49, NUM_MITER=None)
+    rows = (
+        (10, 20, (1000.0, None, None), anchor + bellows, size | steel | cover),
+        (20, 30, (None, None, None), bellows, {}),
+        (30, 40, (None, 1000.0, None), offset + cone, {}),
+        (40, 50, (None, 1000.0, None), bend + tag("WIND", WSHAP_WDRC=0.6), small),
+        (50, 60, (1000.0, None, None), flange + stops + hanger + tag("UNIFORMLOAD", load), {}),
+        (70, 80, (1000.0, None, None), moved + checks + nozzle, {}),
+        (60, 90, (None, None, 900.0), "", {"TEMP_EXP_C1": 0.002}),
+    )
+    elements = [
+        element(start, end, delta, inside, version=version, **values)
+        for start, end, delta, inside, values in rows
+    ]
+    return document(version, *elements, NUMBEND=1, NUMRIGID=1, NUMEXPJNT=2, NUMREST=2)

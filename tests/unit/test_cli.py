@@ -149,7 +149,17 @@ def test_check_names_what_moves(home, capsys):
     loose = loose.replace("+Y GUIDE GAP=50", "Y").replace("MU=0.3", "MU=0")
     (home / "b.inp").write_text(loose)
     assert leave("check", "b.inp") == 2
-    assert "line 10-30 turns about Y" in capsys.readouterr().err
+    assert "b.inp: structure: line 10-30 turns about Y" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("command", ["check", "run", "confirm", "export"])
+def test_motions_of_one_name_are_said_once(home, capsys, command):
+    loose = (home / "a.inp").read_text().replace("ANCHOR   10", "SUPPORT 10 Y")
+    (home / "b.inp").write_text(loose.replace("+Y GUIDE GAP=50", "Y").replace("MU=0.3", "MU=0"))
+    assert leave(command, "b.inp") == 2
+    lines = capsys.readouterr().err.splitlines()
+    assert len(lines) == len(set(lines))
+    assert sum("line 10-30 turns about Y (2 ways, about different points)" in x for x in lines) == 1
 
 
 def test_internal_error_exits_3_with_a_log_and_no_traceback(home, monkeypatch, capsys):

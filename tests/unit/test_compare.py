@@ -1,6 +1,7 @@
 """trunnion verify, diff and show on results that were written and then changed."""
 
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -108,6 +109,74 @@ def test_a_number_that_a_new_run_does_not_give_is_named(change, capsys):
     change(lambda r: scaled(r["cases"]["OPE"]["supports"][0]["force"], 1 + 1e-6))
     assert leave("verify", "b.json") == 1
     assert capsys.readouterr().out.startswith("OPE support ")
+
+
+def test_an_envelope_that_a_new_run_does_not_give_is_named(change, capsys):
+    change(lambda r: scaled(r["envelope"][0]["max"], 1 + 1e-6))
+    assert leave("verify", "b.json") == 1
+    assert capsys.readouterr().out.startswith("envelope support 10 max: F")
+
+
+def test_another_case_named_for_an_extreme_is_told(change, capsys):
+    def edit(report):
+        named = report["envelope"][0]["max_case"]
+        named[named.index("OPE")] = "SUS"
+
+    change(edit)
+    assert leave("verify", "b.json") == 1
+    out = capsys.readouterr().out
+    assert out.startswith("envelope support 10 max: case of F")
+    assert out.rstrip().endswith("SUS -> OPE")
+
+
+def test_what_is_no_envelope_is_refused(change, capsys):
+    change(lambda r: r["envelope"][0].pop("max"))
+    assert leave("verify", "b.json") == 2
+    assert "envelope: no table of trunnion run" in capsys.readouterr().err
+
+
+@pytest.fixture(scope="module")
+def cycled(tmp_path_factory):
+    return stored(tmp_path_factory.mktemp("loop"), (MODELS / "cycle_line.inp").read_text())
+
+
+@pytest.mark.parametrize(
+    ("place", "said"),
+    [
+        (("supports", 0, "range"), "CYCLE HEAT support 0 range: FX"),
+        (("supports", 0, "one_shot"), "CYCLE HEAT support 0 one shot: FX"),
+        (("supports", 0, "path", 1), "CYCLE HEAT support 0 step 2: FX"),
+        (("elements", 0, "range_from"), "CYCLE HEAT element 0-10 range from: FX"),
+        (("states", 1, "elements", 0, "force_from"), "CYCLE HEAT step 1 COLD element 0-10 from"),
+        (("loops",), "CYCLE HEAT: loops 3 -> 2"),
+        (("repeats",), "CYCLE HEAT: repeats False -> True"),
+        ((), "cycle HEAT: cycle absent -> present"),
+    ],
+)
+def test_a_cycle_that_a_new_run_does_not_give_is_named(
+    tmp_path, monkeypatch, cycled, place, said, capsys
+):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "a.inp").write_bytes((MODELS / "cycle_line.inp").read_bytes())
+    report = json.loads(cycled)
+    if not place:
+        del report["cycles"]
+    else:
+        at = report["cycles"]["HEAT"]
+        for key in place[:-1]:
+            at = at[key]
+        last = place[-1]
+        if last == "loops":
+            at[last] = 3
+        elif last == "repeats":
+            at[last] = False
+        else:
+            scaled(at[last], 1 + 1e-6)
+    (tmp_path / "a.json").write_bytes(cycled)
+    (tmp_path / "b.json").write_text(json.dumps(report))
+    assert leave("verify", "a.json") == 0
+    assert leave("verify", "b.json") == 1
+    assert said in capsys.readouterr().out
 
 
 def test_stored_numbers_are_judged_without_solving(home, monkeypatch, capsys):
@@ -372,24 +441,81 @@ def test_a_deck_and_a_result_cannot_be_compared(home, capsys):
     assert "two of a kind" in capsys.readouterr().err
 
 
-def test_it_is_a_diff_driver_of_git(home):
-    """As GIT_EXTERNAL_DIFF, in a real repository."""
-    import os
-
-    program = f"{sys.executable} -m trunnion diff --git"
+@pytest.fixture
+def git(home):
+    """Git in a repository with a.inp, deaf to the user's settings; in `lines` (deck)."""
     own = {**os.environ, "GIT_CONFIG_GLOBAL": os.devnull, "GIT_CONFIG_NOSYSTEM": "1"}
 
-    def git(*arguments: str) -> str:
-        done = subprocess.run(
-            ["git", *arguments], capture_output=True, text=True, check=True, env=own
-        )
-        return done.stdout
+    def call(*arguments: str) -> str:
+        who = ("-c", "user.name=a", "-c", "user.email=a@example.org")
+        return subprocess.run(
+            ["git", *who, *arguments], capture_output=True, text=True, check=True, env=own
+        ).stdout
 
-    git("init", "-q")
-    git("add", "a.inp")
+    (home / ".gitattributes").write_text("*.inp diff=trunnion\n*.json diff=trunnion\n")
+    call("init", "-q")
+    call("add", ".")
+    call("commit", "-q", "-m", "first")
+    return call
+
+
+DRIVER = f"diff.trunnion.command={sys.executable} -m trunnion diff --git"
+TEXTCONV = f"diff.trunnion.textconv={sys.executable} -m trunnion diff --canonical"
+
+
+def test_it_is_a_diff_driver_of_git(home, git):
     (home / "a.inp").write_text(DECK.replace("+Y MU=0.3", "+Y MU=0.1"))
-    own["GIT_EXTERNAL_DIFF"] = program
-    assert git("diff") == "trunnion diff a.inp\n  support 40: +Y MU 0.3 -> 0.1\n"
+    assert git("-c", DRIVER, "diff") == "trunnion diff a.inp\n  support 40: +Y MU 0.3 -> 0.1\n"
+
+
+def test_git_shows_renamed_new_and_deleted_decks(home, git):
+    git("mv", "a.inp", "b.inp")
+    (home / "b.inp").write_text(DECK.replace("+Y MU=0.3", "+Y MU=0.1"))
+    (home / "c.inp").write_text(DECK.replace("TITLE", "TITLE Another"))
+    git("add", ".")
+    shown = git("-c", DRIVER, "diff", "-M", "HEAD")
+    assert "trunnion diff a.inp -> b.inp\n  support 40: +Y MU 0.3 -> 0.1\n" in shown
+    assert "trunnion diff c.inp\n  new file\n" in shown
+    git("commit", "-q", "-m", "second")
+    git("rm", "-q", "c.inp")
+    assert git("-c", DRIVER, "diff", "HEAD") == "trunnion diff c.inp\n  deleted file\n"
+    shown = git("-c", TEXTCONV, "diff", "HEAD~", "HEAD", "--", "c.inp")
+    assert "+SUPPORT 40 +Y" in shown
+    assert "+++ b/c.inp" in shown
+
+
+def test_git_compares_results_and_says_what_is_not_merged(home, git, change):
+    change(lambda r: scaled(r["cases"]["OPE"]["supports"][0]["force"], 1.12))
+    (home / "b.json").replace("a.json")
+    assert "trunnion diff a.json\n  OPE support 10: F" in git("-c", DRIVER, "diff")
+    from trunnion.compare.gitdriver import driver
+
+    assert driver([Path("a.inp")], None) == ["trunnion diff a.inp", "  not merged"]
+
+
+def test_git_finds_includes_in_the_work_tree(home, git):
+    (home / "lines").mkdir()
+    (home / "common.inp").write_text("".join(DECK.splitlines(keepends=True)[2:5]))
+    rest = DECK.splitlines(keepends=True)
+    (home / "lines" / "x.inp").write_text(
+        "".join([*rest[:2], "INCLUDE ../common.inp\n", *rest[5:]])
+    )
+    git("add", ".")
+    git("commit", "-q", "-m", "second")
+    text = (home / "lines" / "x.inp").read_text()
+    (home / "lines" / "x.inp").write_text(text.replace("+Y MU=0.3", "+Y MU=0.1"))
+    said = "trunnion diff lines/x.inp\n  support 40: +Y MU 0.3 -> 0.1\n"
+    assert git("-c", DRIVER, "diff") == said
+
+
+@pytest.mark.parametrize("how", [DRIVER, TEXTCONV])
+def test_a_file_that_is_no_whole_deck_does_not_end_git_diff(home, git, how):
+    (home / "a.inp").write_text(DECK.replace("ANCHOR   10", "ANCOR    10"))
+    shown = git("-c", how, "diff")
+    assert "a.inp:7: ANCOR: unknown keyword" in shown
+    assert "git-blob" not in shown
+    assert "-ANCHOR" in shown
+    assert "+ANCOR    10" in shown
 
 
 # ---------------------------------------------------------------------- show
@@ -410,6 +536,16 @@ def test_a_node_shows_the_numbers_of_the_file(home, capsys):
         assert f"{value + 0.0:.1f}".replace("-0.0", "0.0") in out
     assert f"{1e3 * case['nodes']['40'][0]:.4f}" in out
     assert any(line.split()[1:2] == ["to"] for line in out.splitlines())
+
+
+def test_directions_that_differ_have_their_own_states(home, capsys):
+    assert leave("show", "a.json", "--case", "OPE", "--node", "20") == 0
+    case = json.loads((home / "a.json").read_bytes())["cases"]["OPE"]
+    rest, guide = next(s for s in case["supports"] if s["id"] == "20")["contacts"]
+    assert (rest["dir"], rest["state"], guide["dir"], guide["state"]) == (
+        "+Y", "slip", "GUIDE", "open"
+    )  # fmt: skip
+    assert "20 +Y GUIDE  slip +Y, open GUIDE " in capsys.readouterr().out
 
 
 def test_a_bend_shows_the_ends_at_its_far_point(home, capsys):

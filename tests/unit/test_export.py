@@ -424,6 +424,57 @@ def test_confirm_names_what_is_not_installed(tmp_path, capsys, monkeypatch):
     assert not list(tmp_path.iterdir())
 
 
+@pytest.fixture
+def own_answer(monkeypatch):
+    """Another program that finds what Trunnion found."""
+
+    def answer(job, program, folder, stem):
+        from trunnion.report.json import json_report
+
+        model = trunnion.read(ROOT / f"models/{stem}.inp")
+        found = json.loads(json_report(trunnion.solve(model), model))
+        names = [case.name for case in job.scene.cases]
+        return {"program": "Other 1", "cases": {name: found["cases"][name] for name in names}}
+
+    monkeypatch.setattr("trunnion.exports.confirm.answer", answer)
+    monkeypatch.setattr("trunnion.exports.confirm.missing", lambda program: "")
+
+
+@pytest.mark.usefixtures("own_answer")
+def test_confirm_names_the_cases_that_it_must_leave_out_and_why(capsys):
+    assert leave("confirm", ROOT / "models/snubber_line.inp") == 0
+    said = capsys.readouterr().out
+    assert "6 cases confirmed by Other 1" in said
+    assert said.splitlines()[-1].startswith("not confirmed: ")
+    assert "snubber_line.inp:51: CASE EQYN: ABOUT= with NONLINEAR" in said.splitlines()[-1]
+
+
+@pytest.mark.usefixtures("own_answer")
+def test_a_case_that_has_no_answer_is_not_confirmed(capsys):
+    assert leave("confirm", ROOT / "models/vm29.inp") == 1
+    said = capsys.readouterr().out
+    assert "1 case confirmed by Other 1" in said
+    assert "CASE SLIDE: there is no answer" in said
+    assert leave("confirm", ROOT / "models/vm29.inp", "--case", "STICK") == 0
+    assert "SLIDE" not in capsys.readouterr().out
+
+
+@pytest.mark.usefixtures("own_answer")
+@pytest.mark.parametrize(
+    ("deck", "more", "said"),
+    [
+        ("snubber_line", ["--case", "EQYN"], "CASE EQYN: ABOUT= with NONLINEAR"),
+        ("nr1677_v1_p1", [], "CASE RS: a response spectrum combines modes"),
+        ("vm29", ["--permissive"], "--permissive is for files of other programs"),
+    ],
+)
+def test_nothing_that_can_be_confirmed_is_bad_input(deck, more, said, capsys):
+    assert leave("confirm", ROOT / f"models/{deck}.inp", *more) == 2
+    err = capsys.readouterr().err
+    assert said in err
+    assert "--permissive leaves" not in err
+
+
 @pytest.mark.parametrize(("factor", "code"), [(1.0, 0), (1.0 + 3e-6, 1)])
 def test_confirm_says_whether_they_agree(factor, code, tmp_path, capsys, monkeypatch):
     """With an answer that is Trunnion's own, or a little off."""

@@ -37,6 +37,8 @@ def read_toy(source, findings):
             pipe = Pipe("10", "20", delta, "P", "S", Operation(), place=place)
             findings.note(pipe, f"line {number} & all \x07of it")
             model.pipes.append(pipe)
+        elif word == "LOOSE":
+            model.supports.clear()
         else:
             findings.leave_out(number, "element 10-20", f"{value}; taken as pipe")
     findings.assume("no load cases in the file: the default ones")
@@ -87,9 +89,15 @@ def test_what_cannot_be_represented_is_an_error_that_names_everything(home, caps
 
 
 def test_permissive_lists_what_is_left_out_on_top_of_all_reports(home, capsys):
-    assert leave("run", "odd.toy", "--permissive", "-o", "r") == 0
+    assert leave("run", "odd.toy", "--permissive", "-o", "r", "--html", "--xlsx", "--csv") == 0
     screen = capsys.readouterr().out
     assert "LEFT OUT: element 10-20: bellows; taken as pipe (odd.toy:3)" in screen
+    page = (home / "r" / "odd.html").read_text()
+    assert "<b>LEFT OUT (2)</b>" in page
+    assert "<li>element 10-20: bellows; taken as pipe (odd.toy:3)</li>" in page
+    assert page.index("nozzle; taken as pipe (odd.toy:4)") < page.index('id="picture"')
+    assert "no load cases in the file" in page
+    assert "bellows; taken as pipe" in (home / "r" / "odd_csv" / "warnings.csv").read_text()
     text = (home / "r" / "odd.out").read_text()
     assert "LEFT OUT (2)" in text
     assert text.index("nozzle; taken as pipe (odd.toy:4)") < text.index("1  SUMMARY")
@@ -108,6 +116,42 @@ def test_a_deck_has_no_origin_and_takes_no_permissive(home, capsys):
     assert "origin" not in json.loads((home / "a.json").read_text())
     assert leave("run", "a.inp", "--permissive") == 2
     assert "--permissive is for files of other programs" in capsys.readouterr().err
+
+
+def test_every_command_lists_what_is_left_out(home, monkeypatch, capsys):
+    """export, confirm, study and verify go on without it, and say so."""
+    line = "LEFT OUT: element 10-20: bellows; taken as pipe (odd.toy:3)"
+    monkeypatch.setattr("trunnion.exports.confirm.answer", lambda *_: {"program": "x", "cases": {}})
+    monkeypatch.setattr("trunnion.exports.confirm.missing", lambda program: "")
+    assert leave("export", "odd.toy", "--permissive") == 0
+    assert line in capsys.readouterr().out
+    assert line in (home / "odd_opensees.py").read_text()
+    assert leave("confirm", "odd.toy", "--permissive") == 1  # the other program finds nothing
+    assert line in capsys.readouterr().out
+    assert leave("study", "odd.toy", "--permissive", "--vary", "E=200,210GPa", "-j", "1") == 0
+    assert line in capsys.readouterr().out
+    assert "bellows; taken as pipe (odd.toy:3)" in (home / "odd-study.out").read_text()
+    assert "bellows; taken as pipe" in (home / "odd-study.json").read_text()
+    assert leave("run", "odd.toy", "--permissive") == 0
+    capsys.readouterr()
+    assert leave("verify", "odd.json") == 0
+    assert line in capsys.readouterr().out
+    assert leave("verify", "--certificate", "odd.json") == 0
+    assert line in capsys.readouterr().out
+    assert leave("show", "odd.json") == 0
+    assert line in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("command", ["export", "confirm", "study", "run", "check"])
+def test_errors_of_what_is_left_say_what_is_left_out(home, monkeypatch, command, capsys):
+    """A line that is cut at a gap moves freely: the mechanism alone would not say why."""
+    monkeypatch.setattr("trunnion.exports.confirm.missing", lambda program: "")
+    (home / "odd.toy").write_text(ODD.replace("LENGTH 6000\n", "LENGTH 6000\nLOOSE 1\n"))
+    more = ["--vary", "E=200,210GPa", "-j", "1"] if command == "study" else []
+    assert leave(command, "odd.toy", "--permissive", *more) == 2
+    err = capsys.readouterr().err
+    assert "LEFT OUT: element 10-20: bellows; taken as pipe (odd.toy:4)" in err
+    assert "no restraint holds it" in err
 
 
 def test_check_reads_foreign_files(home, capsys):

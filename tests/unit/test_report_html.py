@@ -12,11 +12,11 @@ from pagebrowser import choose, chromium, opened, picture, requests, until_drawn
 from program import leave
 
 import trunnion
-from trunnion.arrays import Pass
+from trunnion.arrays import SLIP, STICK, Pass
 from trunnion.certificate.scales import measure
 from trunnion.cli import main
 from trunnion.report import html
-from trunnion.report.html.story import course, stories, words
+from trunnion.report.html.story import Course, course, stories, words
 from trunnion.report.units import report_units
 from trunnion.results.supports import card_levels
 
@@ -160,9 +160,34 @@ def test_alternating_supports_are_explained_only_by_a_load_they_share(page, seco
     }
     card = next(i for i, c in enumerate(case.system.cards) if c.label == "40")
     said = words(case.system, found, changes, card, report_units(model.units))
-    assert "It went to and fro." in said
+    assert "fro: held there, the pipe comes off again; let go, it moves past its stop." in said
     assert "20 +Y GUIDE" in said
+    assert ("engaged while that one is open and open while that one is engaged" in said) is not why
     assert ("these two alternate because they share a load" in said) is why
+
+
+AGAINST = "slip while that one is stick and stick while that one is slip"
+
+
+@pytest.mark.parametrize(
+    ("alike", "end"), [(14, ": both slip, or both stick."), (0, f": {AGAINST}."), (7, ".")]
+)
+def test_sliders_that_alternate_are_told_with_their_reason(page, alike, end):
+    model = trunnion.read(page.with_suffix(".inp"))
+    case = trunnion.solve(model)["OPE"]
+    n = 14
+    mine = np.array([STICK, SLIP] * (n // 2), np.int8)
+    theirs = np.where(np.arange(n) < alike, mine, STICK + SLIP - mine)
+    cards = [i for i, c in enumerate(case.system.cards) if c.label in ("20", "40")]
+    level = np.zeros((n, len(case.system.cards)), np.int8)
+    level[:, cards[0]], level[:, cards[1]] = mine, theirs
+    nothing = np.zeros(level.shape)
+    made = Course(level, nothing, np.full(level.shape, np.nan), np.full(level.shape, np.nan))
+    changes = {i: (np.flatnonzero(np.diff(level[:, i])) + 1).tolist() for i in cards}
+    said = words(case.system, made, changes, cards[0], report_units(model.units))
+    assert "It went to and fro: stuck, it needs more friction than mu N; sliding, less." in said
+    assert "20 +Y GUIDE" not in said
+    assert said.endswith(f"mostly change in the same iterations{end}")
 
 
 def test_story_ends_in_the_states_of_the_answer(page):
@@ -330,8 +355,13 @@ def test_the_slider_moves_the_pipe_and_says_by_how_much(parts_browser):
     assert factors == sorted(factors)
 
 
-def test_paper_has_every_table_and_no_buttons(parts_browser):
+BY_ELEMENT = {"forces", "stresses"}
+
+
+@pytest.mark.parametrize("every", [False, True])
+def test_paper_has_the_tables_that_are_asked_for_and_no_buttons(parts_browser, every):
     browser = parts_browser
+    browser.execute_script("document.getElementById('every').checked = arguments[0]", every)
     pdf = browser.execute_cdp_cmd(
         "Page.printToPDF", {"preferCSSPageSize": True, "printBackground": True}
     )
@@ -339,7 +369,7 @@ def test_paper_has_every_table_and_no_buttons(parts_browser):
     browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
     try:
         browser.execute_script("window.dispatchEvent(new Event('beforeprint'))")
-        hidden, tables, high, caption = browser.execute_script(
+        hidden, tables, high, caption, unprinted = browser.execute_script(
             """
             const shows = (e) => getComputedStyle(e).display !== 'none';
             return [[...document.querySelectorAll('.tabs, .bar, #controls button, .hint')]
@@ -348,14 +378,19 @@ def test_paper_has_every_table_and_no_buttons(parts_browser):
                     [t.dataset.table, shows(t) && t.getBoundingClientRect().height > 20]),
                 document.querySelector('.stage').getBoundingClientRect().bottom -
                     document.querySelector('header').getBoundingClientRect().top,
-                document.getElementById('caption').innerText];"""
+                document.getElementById('caption').innerText,
+                [...document.querySelectorAll('.unprinted')].filter(shows)
+                    .map((e) => e.textContent)];"""
         )
     finally:
+        browser.execute_script("document.getElementById('every').checked = false")
         browser.execute_script("window.dispatchEvent(new Event('afterprint'))")
         browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
     assert hidden == 0
     assert {"restraints", "displacements", "certificate"} <= {name for name, _ in tables}
-    assert all(seen for _, seen in tables), tables
+    assert {name for name, seen in tables if not seen} == (set() if every else BY_ELEMENT)
+    assert len(unprinted) == (not every)
+    assert all(text.startswith("Not printed: Element forces, Stresses.") for text in unprinted)
     page = 186 / 273 * 1260  # a landscape A4 less its margins, as wide as the page is laid out
     assert 300 < high < page
     assert caption.startswith("OPE = W + P1 + T1: displacement; movements \u00d7 ")

@@ -201,6 +201,41 @@ def test_bends_are_arcs_and_pipes_as_wide_as_their_diameter(line):
     assert min(abs(w - least) for w in widths) < 1e-9
 
 
+THICK = """\
+UNITS    mm kN bar C
+MATERIAL S  E=203GPa NU=0.3 ALPHA=12e-6 DENSITY=7850
+SECTION  P  NPS=24 SCH=40
+OPERATE  T1=150
+ANCHOR   10
+PIPE     10 20 DX=1500
+BEND     20
+PIPE     20 30 DZ=2500
+BEND     30
+PIPE     40 30 DY=-1600
+ANCHOR   40
+CASE OPE = W + T1
+"""
+
+
+@pytest.mark.parametrize("picture", ["isometric", "OPE.displaced"])
+def test_no_slit_shows_where_a_bend_meets_its_tangent(picture):
+    """Each part of a pipe ends in the very edge in which the next begins, also run backwards."""
+    drawn, results = made(read_text(THICK, "thick.inp"), "thick")
+    quads = [
+        path.vertices[:4]
+        for collection in drawn[picture].axes[0].collections
+        for path in collection.get_paths()
+        if len(path) == 5
+    ]
+    od = results.system.od[0]
+    parts = [q for q in quads if abs(np.linalg.norm(q[0] - q[3]) - od) < 1e-9]
+    edges = [np.sort(edge, axis=0).ravel() for q in parts for edge in (q[[0, 3]], q[[1, 2]])]
+    alone = [e for e in edges if sum(np.allclose(e, x, atol=1e-9, rtol=0) for x in edges) < 2]
+    lines = 2 if picture == "OPE.displaced" else 1  # the undeformed one, too
+    assert len(parts) > 50 * lines
+    assert len(alone) == 2 * lines  # at the anchors
+
+
 def test_the_rim_of_a_corner_lies_behind_the_pipes_that_meet_there():
     """Also where pipes are so thick that a corner covers several of their parts."""
     deck = HEAD + "ANCHOR 1\nPIPE 1 2 DX=1000\nPIPE 2 3 DZ=1000\nPIPE 3 4 DY=700\nCASE A = W\n"

@@ -104,6 +104,14 @@ def test_restraint_loads_of_all_cases_are_those_of_the_json_on_the_restraint(boo
         close(row["NORMAL"], card["normal"] / 1e3)
         close(row["FRICTION"], np.linalg.norm(card["friction"]) / 1e3)
         assert row["STATE"] == card["state"]
+        states = {contact["dir"]: contact["state"] for contact in card["contacts"]}
+        apart = row["DIRECTIONS"]
+        assert (apart is None) == (len(set(states.values())) < 2)
+        for part in apart.split(", ") if apart else []:
+            state, *words = part.split(" ")
+            assert words
+            assert all(states.pop(word) == state for word in words)
+        assert not (apart and states)
         for i in range(3):
             close(row[MOVES[i]], 1e3 * case["nodes"][row["NODE"]][i])
 
@@ -273,7 +281,25 @@ def test_csv_has_the_same_tables_with_all_digits(solved, book):
                 if isinstance(value, int | float):
                     close(value, float(text))
                 else:
-                    assert text == ("" if value is None else str(value))
+                    assert text.removeprefix("'") == ("" if value is None else str(value))
+
+
+@pytest.mark.parametrize("text", ["=1+1", "+Y", "-W", "@rest", "\t=1"])
+def test_text_of_a_deck_is_no_formula_in_csv_and_numbers_stay_numbers(text):
+    rows = [[text, f"a{text}", -1.5, -3, None]]
+    assert list(csv.reader(StringIO(csv_report.csv_bytes(rows).decode()))) == [
+        [f"'{text}", f"a{text}", "-1.5", "-3", ""]
+    ]
+
+
+def test_a_case_that_begins_with_a_minus_is_no_formula_in_csv(solved):
+    model, results = solved
+    results["OPE"].text, kept = "-W", results["OPE"].text
+    try:
+        summary = read_csv(csv_report.files(results, model, "line"), "summary")
+    finally:
+        results["OPE"].text = kept
+    assert next(row for row in summary if row["CASE"] == "OPE")["LOADS"] == "'-W"
 
 
 def test_other_units_stand_above_the_numbers(solved):

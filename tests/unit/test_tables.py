@@ -1,12 +1,17 @@
 """Results by label."""
 
 import sys
+from pathlib import Path
 
 import numpy as np
 import pandas
 import pytest
 
+import trunnion
 from trunnion.library.names import UnknownName
+
+MODELS = Path(__file__).parents[2] / "models"
+KINDS = ("displacements", "supports", "elements", "stresses")
 
 
 def test_rows_are_found_by_label(results):
@@ -70,7 +75,49 @@ def test_a_table_becomes_a_data_frame(results):
     assert results["OPE"].supports.to_pandas().loc["30", "state"] == "slip"
 
 
+def test_a_run_becomes_frames_with_the_cases_below_each_other(results):
+    frames = results.to_pandas()
+    good = [name for name in results.cases if name != "OFF"]
+    for kind in KINDS:
+        frame = frames[kind]
+        assert frame.index.names == ["case", "label"]
+        assert list(dict.fromkeys(frame.index.get_level_values("case"))) == good
+        for name in good:
+            table = getattr(results[name], kind)
+            assert list(frame.loc[name].index) == list(table.labels)
+            assert np.array_equal(frame.loc[name][list(table.columns)].to_numpy(), table.values)
+        assert frame.attrs["units"] == dict(zip(table.columns, table.units, strict=True))
+    assert frames["envelope"].equals(results.envelope.to_pandas())
+    cases = frames["cases"]
+    assert list(cases.index) == list(results.cases)
+    assert list(cases["certified"]) == [name in good for name in results.cases]
+    assert cases.loc["OFF", "cause"].startswith("friction cycles")
+    assert frames.keys() == {
+        "cases",
+        "displacements",
+        "supports",
+        "elements",
+        "stresses",
+        "envelope",
+    }
+
+
+def test_frames_of_modes_and_cycles_are_there_where_a_deck_asks_for_them():
+    cycle = trunnion.solve(trunnion.read(MODELS / "cycle_line.inp"))
+    frames = cycle.to_pandas()
+    ranges = frames["cycle_supports"].loc[("HEAT", "0")]
+    assert ranges["fx_loop"] == cycle.cycles["HEAT"].supports[0, 0] > 0.0
+    assert len(frames["cycle_elements"]) == len(cycle.system.parts)
+    modal = trunnion.solve(trunnion.read(MODELS / "nr1677_v1_p1.inp"))
+    frames = modal.to_pandas()
+    assert np.array_equal(frames["modes"]["frequency"], modal.modes.frequency)
+    assert set(frames["cases"]["certified"]) == {True}
+    assert list(dict.fromkeys(frames["supports"].index.get_level_values(0))) == list(modal.cases)
+
+
 def test_without_pandas_the_extra_is_named(results, monkeypatch):
     monkeypatch.setitem(sys.modules, "pandas", None)
     with pytest.raises(ImportError, match=r"pip install 'trunnion\[pandas\]'"):
         results["OPE"].displacements.to_pandas()
+    with pytest.raises(ImportError, match=r"pip install 'trunnion\[pandas\]'"):
+        results.to_pandas()

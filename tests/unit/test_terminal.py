@@ -266,3 +266,42 @@ def test_other_commands_show_progress_too(tmp_path, command):
             "diff": "comparing line.inp and other.inp", "check": "checking line.inp"}  # fmt: skip
     assert told[command] in ANSI.sub("", found.sent)
     assert told[command] not in words(found)
+
+
+# ------------------------------------------------------------------ many decks, many variants
+@pytest.mark.parametrize("columns", [46, 60, 80])
+def test_the_table_of_a_batch_fits_its_terminal(tmp_path, columns):
+    decks = [line(tmp_path)]
+    decks.append(tmp_path / "a_deck_that_nothing_holds_and_with_a_long_name.inp")
+    decks[1].write_text(decks[0].read_text().replace("ANCHOR", "SUPPORT").replace("10\n", "10 Y\n"))
+    found = on_terminal(
+        ["batch", *decks, "-o", tmp_path / "out", "-j", "1"], size=(columns, 40), cwd=tmp_path
+    )
+    heads = next(row.split() for row in found.screen if row.split()[:1] == ["DECK"])
+    assert heads[:2] == ["DECK", "STATUS"]
+    assert ("WARNINGS" in heads) == (columns == 80)
+    rule = next(row for row in found.screen if "----" in row)
+    assert len(rule.rstrip()) <= columns
+    assert any(row.split()[:2] == ["line.inp", "certified"] for row in found.screen)
+
+
+@pytest.mark.parametrize("columns", [46, 60])
+def test_the_screen_of_a_study_fits_its_terminal(tmp_path, columns):
+    more = ["--vary", "E=200,201,202GPa", "--vary", "T1=100:200:3", "-o", "out", "-j", "1"]
+    found = on_terminal(["study", line(tmp_path), *more], size=(columns, 60), cwd=tmp_path)
+    assert found.code == 0
+    rules = [row.rstrip() for row in found.screen if "----" in row]
+    assert rules
+    assert max(map(len, rules)) <= columns
+    assert any("GOVERNED" in row for row in found.screen)
+    for name in ("out", "json", "csv"):
+        assert any(f"line-study.{name}" in row for row in found.screen)  # whole, on one line
+
+
+def test_a_pipe_gets_the_table_of_a_batch_whole(tmp_path):
+    found = on_terminal(
+        ["batch", line(tmp_path), "-o", tmp_path / "out", "-j", "1"],
+        size=(46, 40), cwd=tmp_path, stdout=False,
+    )  # fmt: skip
+    head = next(row for row in found.sent.splitlines() if row.split()[:1] == ["DECK"])
+    assert head.split() == ["DECK", "STATUS", "CASES", "GOOD", "WORST", "WARNINGS"]

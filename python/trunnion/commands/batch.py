@@ -16,7 +16,9 @@ from trunnion.commands.shared import (
     further_options,
     refuse_missing,
     refuse_unwritable,
+    room,
     say,
+    wrote,
 )
 
 if TYPE_CHECKING:
@@ -84,8 +86,8 @@ def batch(
         except KeyboardInterrupt:
             click.echo("interrupted: finished decks stay, the same command goes on", err=True)
             return INTERRUPTED
-    say(summary_screen(done.entries))
-    say(f"wrote {folder / SUMMARY}.json  {folder / SUMMARY}.csv")
+    say(summary_screen(done.entries, room(0)))
+    say("\n".join(wrote([f"{folder / SUMMARY}.json", f"{folder / SUMMARY}.csv"])))
     return done.code
 
 

@@ -22,12 +22,13 @@ def check(deck: Path, permissive: bool, options: "Options | None") -> int:
     from trunnion.loads import case_loads, load_sets
     from trunnion.model import Case
     from trunnion.origin import origin_lines, telling
+    from trunnion.report.counts import counted
     from trunnion.report.progress import shown
     from trunnion.system import build_system
 
     with shown(f"checking {deck.name}"):
         read = read_model(deck, permissive=permissive, options=options)
-        with telling(read.origin):
+        with telling(read.origin, deck.name):
             model = with_cases(read)
             system = build_system(model)
             sets = load_sets(model, system)
@@ -37,14 +38,14 @@ def check(deck: Path, permissive: bool, options: "Options | None") -> int:
             if not may_be_free(read):
                 _refuse_mechanisms(system)
     counts = (
-        (len(system.labels), "nodes"),
-        (len(system.parts), "elements"),
-        (len(system.cards), "supports"),
-        (len(model.cases), "cases"),
+        (len(system.labels), "node"),
+        (len(system.parts), "element"),
+        (len(system.cards), "support"),
+        (len(model.cases), "case"),
     )
     if read.origin is not None:
         say("\n".join(origin_lines(read.origin)))
-    say(f"{deck.name}: no errors; " + ", ".join(f"{n} {what}" for n, what in counts))
+    say(f"{deck.name}: no errors; " + ", ".join(counted(n, what) for n, what in counts))
     return SOLVED
 
 

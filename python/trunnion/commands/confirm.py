@@ -5,13 +5,16 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from trunnion.commands.export import CASES, LEAVE_OUT, PROGRAMS, exported, said
+from trunnion.commands.export import CASES, PROGRAMS, exported
 from trunnion.commands.shared import (
     DECK,
     FAILED,
+    FOREIGN,
+    PERMISSIVE,
     SOLVED,
     InputError,
     beside,
+    is_foreign,
     refuse_unwritable,
     say,
 )
@@ -37,7 +40,7 @@ if TYPE_CHECKING:
 @click.option(
     "-o", "folder", type=click.Path(path_type=Path), help="Keep the other program's files here."
 )
-@LEAVE_OUT
+@PERMISSIVE
 @beside
 def confirm(
     deck: Path,
@@ -50,7 +53,11 @@ def confirm(
 ) -> int:
     """Solve DECK, solve it again with another program, compare the two.
 
-    Exit 0: they agree.  1: they differ, or one of them has no answer.  2: bad input.
+    Cases that the other program cannot be given (SPECTRUM, NONLINEAR) are named, with why, and
+    left out; one that --case asks for is an error.
+
+    Exit 0: they agree in all others.  1: they differ, or one of them has no answer.  2: bad
+    input, or no case is left.
     """
     from tempfile import TemporaryDirectory
 
@@ -62,9 +69,18 @@ def confirm(
         raise InputError(lacking)
     if folder is not None:
         refuse_unwritable(folder)
+    if permissive and not is_foreign(deck):
+        raise InputError(f"--permissive is for files of other programs ({' '.join(FOREIGN)})")
     with shown(f"reading {deck.name}") as watch, TemporaryDirectory() as scratch:
         model, results, job = exported(
-            deck, program, cases, permissive=permissive, options=options, watch=watch
+            deck,
+            program,
+            cases,
+            permissive=permissive,
+            leave_out=not cases,
+            hint="; without --case it would be left out" if cases else "",
+            options=options,
+            watch=watch,
         )
         if watch is not None:
             watch.turn(f"{NAMES[program]} is solving")
@@ -73,18 +89,29 @@ def confirm(
             both = _both(model, results, job, program, folder or Path(scratch), deck.stem)
         except ProgramError as error:
             both = str(error)
-    for line in said(job):
+    for line in job.notes:
         say(line)
     if isinstance(both, str):
         say(both)
         return FAILED
     allowed = TOLERANCES[program] if allow is None else allow
-    if _judge(*both, NAMES[program], allowed):
+    good = _judge(*both, NAMES[program], allowed)
+    for problem in job.left_out:
+        say(f"not confirmed: {problem}")
+    if good and (cases or not _unsolved(job, results)):
         return SOLVED
     for case in job.scene.cases:
         for warning in case.warnings:
             say(f"{case.name}: {warning}")
     return FAILED
+
+
+def _unsolved(job: "Job", results: "Results") -> bool:
+    """Tell whether a case was left out because it has no answer: that is no agreement."""
+    from trunnion.results.supports import is_good
+
+    told = {case.name for case in job.scene.cases}
+    return any(not is_good(c) for name, c in results.cases.items() if name not in told)
 
 
 def _both(
@@ -107,6 +134,7 @@ def _both(
 def _judge(own: dict[str, Any], found: dict[str, Any], name: str, allowed: float) -> bool:
     """Print how far the other program is away; tell whether that is near enough."""
     from trunnion.exports.agreement import agrees, differences, laws, table, tried, unanswered
+    from trunnion.report.counts import counted
 
     rows, held, without = differences(own, found), laws(found), unanswered(own, found)
     if rows:
@@ -120,6 +148,6 @@ def _judge(own: dict[str, Any], found: dict[str, Any], name: str, allowed: float
         say(f"{case}: not confirmed: {why}")
     good = agrees(rows, held, allowed) and not without
     count = len({row.case for row in rows})
-    verdict = f"{count} case{'s' * (count > 1)} confirmed" if good else "NOT confirmed"
+    verdict = f"{counted(count, 'case')} confirmed" if good else "NOT confirmed"
     say(f"{verdict} by {found['program']}, to {allowed:g} of the largest value of each kind")
     return good

@@ -33,28 +33,35 @@ def diff(
     Exit 0: the same.  1: they differ.  2: bad input.
     """
     if canonical:
-        from trunnion.compare.decks import canonical as text_of
-
         if len(files) != 1:
             raise InputError("--canonical takes one deck")
-        say(text_of(read_model(files[0])).rstrip("\n"))
+        from trunnion.compare.gitdriver import textconv
+
+        say(textconv(files[0]))
         return SOLVED
     if git:
-        return _driver(files, tolerance)
+        from trunnion.compare.gitdriver import driver
+
+        if len(files) not in (1, 7, 9):
+            raise InputError("--git is for git, which gives seven arguments (GIT_EXTERNAL_DIFF)")
+        say("\n".join(driver(files, tolerance)))
+        return SOLVED
     if len(files) != 2:
         raise InputError(f"diff takes two files, not {len(files)}")
     from trunnion.report.progress import shown
 
     with shown(f"comparing {files[0].name} and {files[1].name}"):
-        changes = compare(*files, tolerance)
+        changes = _compare(*files, tolerance)
     for change in changes[:most]:
         say(str(change))
     if most is not None and len(changes) > most:
-        say(f"... and {len(changes) - most} more differences")
+        from trunnion.report.counts import counted
+
+        say(f"... and {counted(len(changes) - most, 'more difference')}")
     return FAILED if changes else SOLVED
 
 
-def compare(a: Path, b: Path, tolerance: float | None) -> "list[Change]":
+def _compare(a: Path, b: Path, tolerance: float | None) -> "list[Change]":
     """Compare two files of one kind."""
     kinds = [path.suffix.lower() == ".json" for path in (a, b)]
     if kinds[0] != kinds[1]:
@@ -68,22 +75,3 @@ def compare(a: Path, b: Path, tolerance: float | None) -> "list[Change]":
     from trunnion.compare.decks import diff_decks
 
     return diff_decks(read_model(a), read_model(b), tolerance or 0.0)
-
-
-def _driver(files: tuple[Path, ...], tolerance: float | None) -> int:
-    """Print for git, which gives path, old file, hex, mode, new file, hex, mode; wants exit 0."""
-    from trunnion.errors import DeckError, ModelError
-
-    if len(files) not in (7, 9):  # nine where the file was renamed
-        raise InputError("--git is for git, which gives seven arguments (GIT_EXTERNAL_DIFF)")
-    path, old, new = files[0], files[1], files[4]
-    say(f"trunnion diff {path}")
-    if str(old) == "/dev/null" or str(new) == "/dev/null":
-        say("  new file" if str(old) == "/dev/null" else "  deleted file")
-        return SOLVED
-    try:
-        for change in compare(old, new, tolerance):
-            say(f"  {change}")
-    except (DeckError, ModelError, InputError) as error:
-        say("  cannot be compared:\n" + "\n".join(f"  {x}" for x in str(error).splitlines()))
-    return SOLVED

@@ -8,14 +8,15 @@ import click
 from trunnion.commands.shared import (
     DECK,
     FOLDER,
-    FOREIGN,
     SOLVED,
     InputError,
     beside,
+    is_foreign,
     read_model,
     refuse_unwritable,
     say,
     solve_model,
+    wrote,
 )
 
 if TYPE_CHECKING:
@@ -57,13 +58,20 @@ def export(
     refuse_unwritable(folder)
     with shown(f"reading {deck.name}") as watch:
         _, _, job = exported(
-            deck, program, cases, permissive=permissive, options=options, watch=watch
+            deck,
+            program,
+            cases,
+            permissive=permissive,
+            leave_out=permissive,
+            hint="; --permissive leaves these cases out, --case chooses others",
+            options=options,
+            watch=watch,
         )
         made = files(job, program, deck.stem)
     write_files({folder / name: content for name, content in made.items()})
     for line in said(job):
         say(line)
-    say("wrote " + "  ".join(str(folder / name) for name in made))
+    say("\n".join(wrote([folder / name for name in made])))
     return SOLVED
 
 
@@ -73,20 +81,25 @@ def exported(
     cases: tuple[str, ...],
     *,
     permissive: bool,
+    leave_out: bool,
+    hint: str,
     options: "Options | None",
     watch: "Watch | None",
 ) -> "tuple[Model, Results, Job]":
-    """Read and solve a deck, and take it apart for another program."""
+    """Read and solve a deck, and take it apart for another program.
+
+    `permissive` is for what a file has and a model cannot, `leave_out` for cases that the other
+    program cannot be given.
+    """
     from trunnion.exports import build_job
     from trunnion.exports.refusals import ExportError
 
-    foreign = deck.suffix.lower() in FOREIGN
-    model = read_model(deck, permissive=permissive and foreign, options=options)
+    model = read_model(deck, permissive=permissive and is_foreign(deck), options=options)
     results = solve_model(model, watch=watch)
     try:
-        job = build_job(model, results, cases, program=program, permissive=permissive)
+        job = build_job(model, results, cases, program=program, permissive=leave_out)
     except ExportError as error:
-        raise InputError(str(error)) from None
+        raise InputError(f"{error}{hint}") from None
     return model, results, job
 
 

@@ -21,6 +21,7 @@ from trunnion.commands.shared import (
     room,
     say,
     solve_model,
+    wrote,
 )
 
 if TYPE_CHECKING:
@@ -67,7 +68,7 @@ def run(
 
         files = write_reports(results, model, folder, deck.stem, also=also, watch=watch)
     written = perf_counter()
-    below = _wrote(_shown(files, folder))
+    below = wrote(_shown(files, folder))
     if timings:
         parts = {"read": read - start, "solve": solved - read, "write": written - solved}
         below.append(", ".join(f"{name} {seconds:.3f} s" for name, seconds in parts.items()))
@@ -76,24 +77,18 @@ def run(
     return SOLVED if good else FAILED
 
 
-def _wrote(names: list[str]) -> list[str]:
-    """Say what was written, in lines of a terminal that do not break a name."""
-    columns, lines = room(0).columns, ["wrote"]
-    for i, name in enumerate(names):
-        if i and room(0).lines is not None and len(lines[-1]) + len(name) + 2 > columns:
-            lines.append("    ")
-        lines[-1] += f"{' ' if i == 0 else '  '}{name}"
-    return lines
-
-
 def _shown(files: list[Path], folder: Path) -> list[str]:
     """Name the files; those in a folder of their own by that folder, pictures together."""
+    from trunnion.report.counts import counted
+
     inner = [file.parent for file in files if file.parent != folder]
     pictures = [file for file in files if file.suffix == ".png"]
     alone = [str(file) for file in files if file.parent == folder and file not in pictures]
     if pictures:
-        alone.append(f"{folder / files[0].stem}.*.png ({len(pictures)} pictures)")
-    return alone + [f"{place}/ ({inner.count(place)} files)" for place in dict.fromkeys(inner)]
+        alone.append(f"{folder / files[0].stem}.*.png ({counted(len(pictures), 'picture')})")
+    return alone + [
+        f"{place}/ ({counted(inner.count(place), 'file')})" for place in dict.fromkeys(inner)
+    ]
 
 
 def _check_names(deck: Path, also: list[str]) -> None:

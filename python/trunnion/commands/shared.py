@@ -49,6 +49,11 @@ def further_options(command: Callable[..., int]) -> Callable[..., int]:
     return command
 
 
+def is_foreign(deck: Path) -> bool:
+    """Tell whether a file is one of another program; without numpy, unlike `formats.is_foreign`."""
+    return deck.suffix.lower() in FOREIGN
+
+
 class InputError(Exception):
     """The command cannot be done as it stands: exit 2."""
 
@@ -115,7 +120,7 @@ def solve_model(model: "Model", spread: int = 0, watch: "Watch | None" = None) -
     from trunnion.origin import telling
 
     asked: dict[str, Any] = {"spread": spread, "watch": watch}
-    with telling(model.origin):
+    with telling(model.origin, "" if model.file is None else model.file.name):
         results: Results = trunnion.solve(model, **{key: x for key, x in asked.items() if x})
     return results
 
@@ -130,6 +135,16 @@ def room(below: int) -> "Room":
 
     columns, lines = get_terminal_size()
     return Room(columns, lines - below)
+
+
+def wrote(names: Sequence[object]) -> list[str]:
+    """Say what was written, in lines of a terminal that do not break a name."""
+    columns, lines = room(0).columns, ["wrote"]
+    for i, name in enumerate(map(str, names)):
+        if i and room(0).lines is not None and len(lines[-1]) + len(name) + 2 > columns:
+            lines.append("    ")
+        lines[-1] += f"{' ' if i == 0 else '  '}{name}"
+    return lines
 
 
 def refuse_missing(also: Sequence[str]) -> None:

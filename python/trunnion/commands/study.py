@@ -15,7 +15,9 @@ from trunnion.commands.shared import (
     beside,
     read_model,
     refuse_unwritable,
+    room,
     say,
+    wrote,
 )
 
 if TYPE_CHECKING:
@@ -63,9 +65,9 @@ def study(
     refuse_unwritable(folder)
     with shown(f"reading {deck.name}"):
         model = read_model(deck, permissive=permissive, options=options)
-    with telling(model.origin):
+    with telling(model.origin, deck.name):
         total = count(read_axes(with_cases(model), vary))
-    with telling(model.origin), progress("variants", total) as counter:
+    with telling(model.origin, deck.name), progress("variants", total) as counter:
         done = solve_study(
             model,
             vary,
@@ -77,11 +79,11 @@ def study(
         )
     files = {
         folder / f"{deck.stem}-study.out": study_report(done, model),
-        folder / f"{deck.stem}-study.json": study_json(done),
+        folder / f"{deck.stem}-study.json": study_json(done, model.origin),
         folder / f"{deck.stem}-study.csv": envelope_csv(done),
         folder / f"{deck.stem}-variants.csv": variants_csv(done),
     }
     write_files(files)
-    say(study_screen(done, model))
-    say("wrote " + "  ".join(str(file) for file in files))
+    say(study_screen(done, model, room(0)))
+    say("\n".join(wrote(list(files))))
     return FAILED if done.failures else SOLVED

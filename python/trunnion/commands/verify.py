@@ -59,6 +59,7 @@ def verify(
     """
     from trunnion.commands.stored_source import Asked, read_source
     from trunnion.compare.stored import read_report
+    from trunnion.origin import origin_lines
     from trunnion.report.progress import shown
 
     typed = ["trunnion", "verify", *["--certificate"] * certificate, str(results)]
@@ -70,6 +71,8 @@ def verify(
             code, said = _judge(report, model, watch)
         else:
             code, said = _repeat(report, model, place, allow, most, watch)
+    if model.origin is not None:
+        said = "\n".join([*origin_lines(model.origin), said])
     say(said)
     return code
 
@@ -86,6 +89,7 @@ def _repeat(
     import json
 
     from trunnion.compare.results import diff_results
+    from trunnion.report.counts import counted
     from trunnion.report.json import json_report
 
     lines = _versions(report, "run again")
@@ -93,7 +97,7 @@ def _repeat(
     changes = diff_results(report, again, allow)
     lines += map(str, changes[:most])
     if len(changes) > most:
-        lines.append(f"... and {len(changes) - most} more differences")
+        lines.append(f"... and {counted(len(changes) - most, 'more difference')}")
     if not changes:
         n = len(report["cases"])
         lines.append(f"{n} case{'s agree' if n != 1 else ' agrees'} with a new run of {place}")

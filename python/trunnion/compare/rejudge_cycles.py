@@ -11,6 +11,7 @@ from trunnion.cases.cycles import REPEATED, change_between, set_ranges
 from trunnion.compare.judgement import SHAPE, Verdict, judged, start_of
 from trunnion.compare.written import differing
 from trunnion.model import Case, Cycle
+from trunnion.report.counts import counted
 from trunnion.solver.steps import Origin
 
 if TYPE_CHECKING:
@@ -65,7 +66,7 @@ def _judge(run: "Run", cycle: Cycle, name: str, stored: Mapping[str, Any]) -> Ve
     whole = Results("", {}, cycles={cycle.name: result})
     again = json.loads(cycle_entries(whole, state_entry))[cycle.name]
     fault = differing(again, stored, WHOLE)
-    text = f"{len(result.path)} steps, worst {worst:.1e}; ranges the same from them"
+    text = f"{counted(len(result.path), 'step')}, worst {worst:.1e}; ranges the same from them"
     return Verdict(name, not fault, fault or text)
 
 

@@ -14,8 +14,7 @@ class ExportError(ValueError):
 
     def __init__(self, problems: Sequence[Problem]) -> None:
         count = "1 error" if len(problems) == 1 else f"{len(problems)} errors"
-        hint = "nothing was written; --permissive leaves these cases out, --case chooses others"
-        super().__init__("\n".join([*map(str, problems), f"{count}, {hint}"]))
+        super().__init__("\n".join([*map(str, problems), f"{count}, nothing was written"]))
         self.problems = tuple(problems)
 
 

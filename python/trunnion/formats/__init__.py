@@ -42,7 +42,8 @@ FORMATS: dict[str, Format] = {
     ".pcf": Format(
         "PCF (Isogen piping component file)",
         "trunnion.formats.pcf",
-        r"(?i)<?(ISOGEN-FILES|UNITS-|PIPELINE-REFERENCE|PIPE|MESSAGE-)",
+        r"(?i)<?(ISOGEN-FILES|UNITS-|PIPELINE-REFERENCE|MESSAGE-|END-|MATERIALS|PIPE|ELBOW|BEND|TEE"
+        r"|OLET|WELDOLET|FLANGE|VALVE|REDUCER|SUPPORT|WELD|GASKET|CAP|INSTRUMENT|COUPLING|ANCHOR)",
         ("--table", "--tolerance", "--anchor"),
     ),
 }

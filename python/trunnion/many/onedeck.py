@@ -24,6 +24,7 @@ from trunnion.results.supports import cause_of, is_good
 
 if TYPE_CHECKING:
     from trunnion.formats.options import Options
+    from trunnion.report.units import ReportUnits
 
 Settings = Mapping[str, object]
 
@@ -73,13 +74,14 @@ def solve_model(model: Model, deck: Path, settings: Settings) -> tuple[Entry, di
     """Solve a model; give its entry and its reports by their names in the folder."""
     import trunnion
     from trunnion.report import report_files
+    from trunnion.report.units import report_units
 
     with telling(model.origin):
         results = trunnion.solve(model)
     also: Any = settings["also"]
     files = report_files(results, model, Path(), deck.stem, also=also)
     reports = {path.as_posix(): content for path, content in files.items()}
-    return entry_of(results, deck, tuple(reports)), reports
+    return entry_of(results, report_units(model.units), deck, tuple(reports)), reports
 
 
 def write_deck(
@@ -97,11 +99,14 @@ def write_deck(
     write_files(files | own)
 
 
-def entry_of(results: Results, deck: Path, files: tuple[str, ...]) -> Entry:
-    """Sum up a solved deck."""
+def entry_of(results: Results, units: "ReportUnits", deck: Path, files: tuple[str, ...]) -> Entry:
+    """Sum up a solved deck; `causes` have its units, those of the cases have newtons."""
+    from trunnion.report.causes import in_units, told_cause
+
     cases = results.cases.values()
-    causes = [f"{case.name}: {cause_of(case)}" for case in cases if not is_good(case)]
-    causes += [f"CYCLE {c.name}: {c.cause}" for c in results.cycles.values() if c.cause]
+    causes = [f"{case.name}: {told_cause(case, units)}" for case in cases if not is_good(case)]
+    cycles = [cycle for cycle in results.cycles.values() if cycle.cause]
+    causes += [f"CYCLE {c.name}: {in_units(c.cause or '', units)}" for c in cycles]
     return Entry(
         stem=deck.stem,
         deck=deck.name,

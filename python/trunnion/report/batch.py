@@ -1,14 +1,18 @@
 """The summary of a batch: a table for the screen, JSON and CSV for programs."""
 
-import csv
-import io
 from collections.abc import Sequence
 
 from trunnion.many.records import Entry, summary_of
-from trunnion.report.columns import integers, table, words
+from trunnion.report.columns import integers, table, without, words
+from trunnion.report.counts import counted
+from trunnion.report.csv import csv_bytes
 from trunnion.report.encode import dump
+from trunnion.report.screen import PIPE, Room, messages
+from trunnion.report.sheets import Cell
 
 CAUSES = 6  # of a deck on the screen
+DROPPED = ("WARNINGS", "WORST", "NOTE", "GOOD", "CASES")  # a narrow terminal goes without
+LEAST = 16  # characters of DECK and STATUS there
 
 
 def summary_json(entries: Sequence[Entry]) -> bytes:
@@ -20,24 +24,27 @@ def summary_json(entries: Sequence[Entry]) -> bytes:
 
 def summary_csv(entries: Sequence[Entry]) -> bytes:
     """Write one row a case; a deck without cases has one of its own."""
-    out = io.StringIO()
-    writer = csv.writer(out, lineterminator="\n")
-    writer.writerow(["deck", "status", "case", "kind", "converged", "certificate", "cause"])
+    rows: list[list[Cell]] = [
+        ["deck", "status", "case", "kind", "converged", "certificate", "cause"]
+    ]
     for e in entries:
         if not e.cases:
-            writer.writerow([e.deck, e.status, "", "", "", "", "; ".join(e.causes)])
+            rows.append([e.deck, e.status, "", "", "", "", "; ".join(e.causes)])
         for c in e.cases:
             worst = "" if c.worst is None else f"{c.worst:.3g}"
-            row = [e.deck, e.status, c.name, c.kind, int(c.converged), worst, c.cause or ""]
-            writer.writerow(row)
-    return out.getvalue().encode()
+            rows.append([e.deck, e.status, c.name, c.kind, int(c.converged), worst, c.cause or ""])
+    return csv_bytes(rows)
 
 
-def summary_screen(entries: Sequence[Entry]) -> str:
-    """Print the table of all decks, then every failure with its causes, then the counts."""
+def summary_screen(entries: Sequence[Entry], room: Room = PIPE) -> str:
+    """Print the table of all decks, then every failure with its causes, then the counts.
+
+    A narrow terminal goes without columns; messages are broken at its width.
+    """
     worst = [max((c.worst for c in e.cases if c.worst is not None), default=None) for e in entries]
     good = [sum(c.converged for c in e.cases) for e in entries]
-    text = table(
+    told = [_note(e) for e in entries]
+    columns = without(
         [
             words("DECK", [e.deck for e in entries], least=10, most=48),
             words("STATUS", [e.status for e in entries], least=14),
@@ -45,21 +52,23 @@ def summary_screen(entries: Sequence[Entry]) -> str:
             integers("GOOD", good),
             words("  WORST", ["" if w is None else f"  {w:.1e}" for w in worst], least=10),
             integers("WARNINGS", [e.warnings for e in entries], 9),
-            words("  NOTE", [f"  {_note(e)}" for e in entries]),
+            *([words("  NOTE", [f"  {note}" for note in told])] if any(told) else []),
         ],
-        none="no decks",
+        room.columns,
+        DROPPED,
+        LEAST,
     )
-    notes = [f"  {e.deck}: {note}\n" for e in entries for note in e.notes]
+    text = table(columns, none="no decks", width=room.columns)
+    notes = [f"{e.deck}: {note}" for e in entries for note in e.notes]
     if notes:
-        text += "\nNOTES\n" + "".join(notes)
+        text += "\nNOTES\n" + _lines(notes, room)
     failures = [e for e in entries if e.code]
     if failures:
-        text += "\nFAILURES\n" + "".join(map(_failure, failures))
+        text += "\nFAILURES\n" + "".join(_failure(entry, room) for entry in failures)
     counts = [f"{sum(e.status == s for e in entries)} {s}" for s in _statuses(entries)]
     skipped = sum(e.skipped for e in entries)
     counts += [f"{skipped} of them finished before"] * bool(skipped)
-    decks = "1 deck" if len(entries) == 1 else f"{len(entries)} decks"
-    return f"{text}\n{decks}: {', '.join(counts)}"
+    return f"{text}\n{counted(len(entries), 'deck')}: {', '.join(counts)}"
 
 
 def entry_line(entry: Entry) -> str:
@@ -77,9 +86,13 @@ def _note(entry: Entry) -> str:
     return "finished before" if entry.skipped else "see below" if entry.notes else ""
 
 
-def _failure(entry: Entry) -> str:
-    lines = [f"  {entry.deck}: {entry.status}"]
-    lines += [f"    {cause}" for cause in entry.causes[:CAUSES]]
+def _failure(entry: Entry, room: Room) -> str:
+    lines = [f"{entry.deck}: {entry.status}"]
+    lines += [f"  {cause}" for cause in entry.causes[:CAUSES]]
     if len(entry.causes) > CAUSES:
-        lines.append(f"    ... and {len(entry.causes) - CAUSES} more")
-    return "\n".join(lines) + "\n"
+        lines.append(f"  ... and {len(entry.causes) - CAUSES} more")
+    return _lines(lines, room)
+
+
+def _lines(texts: Sequence[str], room: Room) -> str:
+    return "".join(f"{line}\n" for entry in messages(texts, room) for line in entry)

@@ -12,6 +12,7 @@ from trunnion.frozen import frozen
 from trunnion.report.units import Quantity
 
 PAGE = 132
+CUT = 8  # characters, with the space behind, to which words are cut where room is short
 Words = Sequence[str | None]
 
 
@@ -47,18 +48,33 @@ def _cut(text: str, width: int) -> str:
     return text if len(text) <= width else f"{text[: width - 1]}~"
 
 
-def fitted(columns: Sequence[Column]) -> list[Column]:
+def fitted(columns: Sequence[Column], width: int = PAGE) -> list[Column]:
     """Narrow the widest words until the columns fit the page."""
     columns = list(columns)
-    while (excess := 2 + sum(c.width for c in columns) - PAGE) > 0:
+    while (excess := 2 + sum(c.width for c in columns) - width) > 0:
         i = max((i for i, c in enumerate(columns) if c.left), key=lambda i: columns[i].width)
         c = columns[i]
-        if c.width <= 8:
+        if c.width <= CUT:
             break
-        narrow = max(c.width - excess, 8, *(d.width for d in columns if d.left and d is not c))
+        narrow = max(c.width - excess, CUT, *(d.width for d in columns if d.left and d is not c))
         narrow = min(narrow, c.width - 1)
         columns[i] = words(c.head, [str(cell) for cell in c.cells], least=1, most=narrow - 1)
     return columns
+
+
+def without(
+    columns: Sequence[Column], width: int, heads: Sequence[str], least: int = CUT
+) -> list[Column]:
+    """Leave columns out, in the order of `heads`, until words can be cut to fit the others.
+
+    least : characters to which words may be cut.
+    """
+    kept = list(columns)
+    for head in heads:
+        if 2 + sum(min(c.width, least) if c.left else c.width for c in kept) <= width:
+            break
+        kept = [c for c in kept if c.head.strip() != head]
+    return kept
 
 
 def numbers(head: str, values: ArrayLike, quantity: Quantity, width: int = 11) -> Column:
@@ -88,12 +104,12 @@ def integers(head: str, values: Sequence[int], width: int = 7) -> Column:
     return Column(head, "", f"%{width}d", width, values)
 
 
-def table(columns: Sequence[Column], *, none: str = "none") -> str:
+def table(columns: Sequence[Column], *, none: str = "none", width: int = PAGE) -> str:
     """Print columns under their headings, or a word when there are no rows."""
     count = len(columns[0].cells)
     if not count:
         return f"  {none}\n"
-    columns = fitted(columns)
+    columns = fitted(columns, width)
     form = "  " + "".join(c.form for c in columns) + "\n"
     cells = chain.from_iterable(zip(*(c.cells for c in columns), strict=True))
     rows = (form * count) % tuple(cells)

@@ -6,6 +6,7 @@ import numpy as np
 
 from trunnion.arrays import F8, CycleResult, Results
 from trunnion.report.answers import largest
+from trunnion.report.causes import in_units
 from trunnion.report.columns import Column, headings, numbers, section, words, wrapped
 from trunnion.report.units import ReportUnits
 from trunnion.results.supports import card_loads, range_ratio
@@ -16,16 +17,16 @@ HEADS = ("FX", "FY", "FZ", "MX", "MY", "MZ")
 def cycle_report(cycle: CycleResult, units: ReportUnits) -> str:
     """Print what became of one cycle."""
     title = f"{cycle.name} = {', '.join(cycle.cases)}"
-    text = f"\n\n{title}\n{'=' * len(title)}\n{wrapped(verdict(cycle))}"
+    text = f"\n\n{title}\n{'=' * len(title)}\n{wrapped(verdict(cycle, units))}"
     if cycle.supports is None or cycle.elements is None:
         return text
     return text + _supports(cycle, cycle.supports, units) + _elements(cycle, cycle.elements, units)
 
 
-def verdict(cycle: CycleResult) -> str:
+def verdict(cycle: CycleResult, units: ReportUnits) -> str:
     """Say whether the loop repeats."""
     if cycle.cause:
-        return f"not followed to its end: {cycle.cause}"
+        return f"not followed to its end: {in_units(cycle.cause, units)}"
     loops = f"{cycle.loops} loop{'s' if cycle.loops != 1 else ''} followed"
     if not np.isfinite(cycle.change):
         return f"{loops}: only from the second on can a loop be seen to repeat"
@@ -33,19 +34,19 @@ def verdict(cycle: CycleResult) -> str:
     return f"{loops}, {word}: loads and movements changed by {cycle.change:.1e} of the largest"
 
 
-def cycle_warnings(results: Results) -> list[str]:
+def cycle_warnings(results: Results, units: ReportUnits) -> list[str]:
     """Name the cycles that were not followed to their end or do not repeat."""
     return [
-        f"CYCLE {cycle.name}: {verdict(cycle)}"
+        f"CYCLE {cycle.name}: {verdict(cycle, units)}"
         for cycle in results.cycles.values()
         if cycle.cause or not cycle.repeats
     ]
 
 
-def cycle_lines(results: Results) -> list[str]:
+def cycle_lines(results: Results, units: ReportUnits) -> list[str]:
     """Say in a line each which cycles repeat."""
     found = results.cycles.values()
-    return [f"  CYCLE {c.name}: {verdict(c)}" for c in found if c.repeats and not c.cause]
+    return [f"  CYCLE {c.name}: {verdict(c, units)}" for c in found if c.repeats and not c.cause]
 
 
 def step_names(cycle: CycleResult) -> list[str]:

@@ -4,6 +4,7 @@ import numpy as np
 
 from trunnion.arrays import ModeSet, Results, System
 from trunnion.report.columns import integers, numbers, plain, section, table, words, wrapped
+from trunnion.report.counts import counted
 from trunnion.report.units import Quantity, ReportUnits
 from trunnion.results.tables import mass_percent, period_of
 
@@ -42,7 +43,9 @@ def mode_lines(results: Results) -> list[str]:
     mass = " ".join(
         f"{c} {x:.1f}" for c, x in zip("XYZ", mass_percent(modes).sum(axis=0), strict=True)
     )
-    return [f"  {len(modes.frequency)} modes: {lowest}{more} Hz; effective mass {mass} %"]
+    return [
+        f"  {counted(len(modes.frequency), 'mode')}: {lowest}{more} Hz; effective mass {mass} %"
+    ]
 
 
 def _table(modes: ModeSet, units: ReportUnits) -> str:

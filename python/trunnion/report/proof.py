@@ -8,6 +8,7 @@ import numpy as np
 from trunnion.arrays import CaseResult
 from trunnion.report.answers import largest
 from trunnion.report.columns import Column, integers, numbers, section, table, words, wrapped
+from trunnion.report.counts import counted
 from trunnion.report.units import ReportUnits
 from trunnion.results.balance import load_sum, reaction_sum
 from trunnion.results.supports import card_forces
@@ -79,7 +80,7 @@ def history_table(case: CaseResult) -> str:
     columns.sort(key=lambda column: column.left and column.head != "  WHAT")
     text = section(f"{case.name}: ITERATIONS", f"{len(history)} in all") + table(columns)
     if left_out:
-        text += f"  {left_out} iterations after number {FIRST} of this table are left out\n"
+        text += f"  {counted(left_out, 'iteration')} after number {FIRST} of this table left out\n"
     return text + _restless(case)
 
 

@@ -14,14 +14,16 @@ from trunnion.arrays import OPEN, CaseResult, Results
 from trunnion.frozen import frozen
 from trunnion.model import Model
 from trunnion.origin import origin_lines
+from trunnion.report.causes import told_cause
 from trunnion.report.columns import PAGE
+from trunnion.report.counts import counted
 from trunnion.report.frozen import frozen_warning
 from trunnion.report.loops import cycle_lines, cycle_warnings
 from trunnion.report.modes import mode_lines, mode_warnings
 from trunnion.report.screen_table import case_table
 from trunnion.report.summary import Largest, largest_of
 from trunnion.report.units import ReportUnits, report_units
-from trunnion.results.supports import card_ids, card_levels, cause_of, is_good, lifted_rests
+from trunnion.results.supports import card_ids, card_levels, is_good, lifted_rests
 
 MOST, LOW = 2, 20  # lines of a message on a terminal; one where this has fewer than LOW
 LABEL = 15  # characters before a verdict
@@ -68,23 +70,23 @@ def screen(results: Results, model: Model, room: Room = SCREEN) -> tuple[bool, s
     broken = [name for name, cycle in results.cycles.items() if cycle.cause]
     order = bad + [name for name in cases if name not in bad]
     head, rows = case_table([cases[name] for name in order], units, room.columns)
-    lines = [mode.strip() for mode in mode_lines(results) + cycle_lines(results)]
+    lines = [mode.strip() for mode in mode_lines(results) + cycle_lines(results, units)]
     if results.spreads:
         from trunnion.report.spread import spread_lines
 
         lines += [line.strip() for line in spread_lines(results, units)]
-    causes = [f"{name}: {cause_of(cases[name])}" for name in bad]
+    causes = [f"{name}: {told_cause(cases[name], units)}" for name in bad]
     warnings = [f"warning: {text}" for text in all_warnings(results, units)]
     source = [] if model.origin is None else origin_lines(model.origin)
     blocks = [
         Block([[_title(results, room)]] if results.title else []),
-        Block(_messages(source, room), 2, "of these"),
+        Block(messages(source, room), 2, "of these"),
         Block([[head]]),
         Block([[row] for row in rows], 3, "cases"),
         Block(_verdicts(results, bad, units, room), 3, "lines"),
-        Block(_messages(lines, room), 1, "lines"),
-        Block(_messages(causes, room, fg="red"), 2, "causes"),
-        Block(_messages(warnings, room, fg="yellow"), 2, "warnings"),
+        Block(messages(lines, room), 1, "lines"),
+        Block(messages(causes, room, fg="red"), 2, "causes"),
+        Block(messages(warnings, room, fg="yellow"), 2, "warnings"),
     ]
     _fit(blocks, room)
     return not bad and not broken, "\n".join(line for block in blocks for line in block.lines())
@@ -112,17 +114,21 @@ def _title(results: Results, room: Room) -> str:
     return click.style(text, bold=True)
 
 
-def _messages(texts: Sequence[str], room: Room, fg: str | None = None) -> list[list[str]]:
-    """Break messages at the width of a terminal, in one line or two; a pipe gets them whole."""
+def messages(texts: Sequence[str], room: Room, fg: str | None = None) -> list[list[str]]:
+    """Break messages at the width of a terminal, in one line or two; a pipe gets them whole.
+
+    A message keeps what it is indented by.
+    """
     found = []
     for text in texts:
         lines = [f"  {text}"]
         if room.lines is not None:
+            own = " " * (len(text) - len(text.lstrip()) + 2)
             lines = textwrap.wrap(
-                text,
+                text.lstrip(),
                 max(room.columns, 20),
-                initial_indent="  ",
-                subsequent_indent="    ",
+                initial_indent=own,
+                subsequent_indent=f"{own}  ",
                 max_lines=room.most,
                 placeholder=" ...",
             )
@@ -159,7 +165,7 @@ def _certificate(cases: Sequence[CaseResult], bad: list[str]) -> str:
     if not n:
         return "no cases"
     if bad:
-        return f"{len(bad)} of {n} case{'s' * (n > 1)} NOT certified: no numbers, causes below"
+        return f"{len(bad)} of {counted(n, 'case')} NOT certified: no numbers, causes below"
     worst, where, name = max(
         (c.certificate.worst, c.certificate.where, c.name) for c in cases if c.certificate
     )
@@ -180,17 +186,17 @@ def _worst_support(cases: Sequence[CaseResult], units: ReportUnits) -> str:
 
 def _open(cases: Sequence[CaseResult]) -> str:
     """Name the supports that are open in the case that has most of them."""
-    counted: list[tuple[CaseResult, list[int]]] = []
+    opened: list[tuple[CaseResult, list[int]]] = []
     for case in cases:
         if case.gathered is None and case.kind == "case":
             levels = card_levels(case).tolist()
-            counted.append((case, [i for i, level in enumerate(levels) if level == OPEN]))
-    if not any(at for _, at in counted):
+            opened.append((case, [i for i, level in enumerate(levels) if level == OPEN]))
+    if not any(at for _, at in opened):
         return ""
-    case, at = max(counted, key=lambda entry: len(entry[1]))
+    case, at = max(opened, key=lambda entry: len(entry[1]))
     ids = card_ids(case.system.cards)
     named = " ".join(ids[i] for i in at[:NAMED]) + (" ..." if len(at) > NAMED else "")
-    return f"{len(at)} of {len(ids)} supports in {case.name}: {named}"
+    return f"{len(at)} of {counted(len(ids), 'support')} in {case.name}: {named}"
 
 
 def _lifted(cases: Sequence[CaseResult]) -> str:
@@ -216,4 +222,4 @@ def all_warnings(results: Results, units: ReportUnits) -> list[str]:
     cases = results.cases.values()
     warnings += [f"{case.name}: {text}" for case in cases for text in case.warnings]
     warnings += [text for case in cases for text in frozen_warning(case, units)]
-    return warnings + mode_warnings(results) + cycle_warnings(results)
+    return warnings + mode_warnings(results) + cycle_warnings(results, units)

@@ -15,6 +15,7 @@ from trunnion.results.supports import (
     card_nodes,
     card_normals,
     card_states,
+    direction_states,
     solved,
 )
 from trunnion.results.supports import envelope as extremes
@@ -29,6 +30,7 @@ def restraints(cases: Sequence[CaseResult], units: ReportUnits) -> Sheet:
     normal = _by_card([card_normals(case) for case in cases])
     rubbing = _by_card([np.linalg.norm(card_friction(case), axis=1) for case in cases])
     states = [state for row in zip(*map(card_states, cases), strict=True) for state in row]
+    apart = [text for row in zip(*map(direction_states, cases), strict=True) for text in row]
     force = units.force.showing(float(np.abs(load[:, :3]).max(initial=0.0)))
     d = units.movement.showing(float(np.abs(move).max(initial=0.0)))
     columns = [
@@ -40,8 +42,9 @@ def restraints(cases: Sequence[CaseResult], units: ReportUnits) -> Sheet:
         amounts("NORMAL", normal, force),
         amounts("FRICTION", rubbing, force),
         *(amounts(f"D{axis}", move[:, i], d) for i, axis in enumerate(DIRECTIONS)),
+        Column("DIRECTIONS", apart),
     ]
-    note = f"{NOTE}; NORMAL is the size without friction"
+    note = f"{NOTE}; DIRECTIONS where their states differ; NORMAL is the size without friction"
     return Sheet("restraints", "Restraint loads", note, columns, keys=3, groups=n > 1)
 
 

@@ -4,7 +4,8 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from trunnion.arrays import F8, Spread, Spreading
+from trunnion.arrays import F8, Spread, Spreading, Tried
+from trunnion.report.causes import in_units
 from trunnion.report.sheets import LOADS, Cell, Column, Sheet, six
 from trunnion.report.units import ReportUnits
 from trunnion.results import tables
@@ -12,18 +13,15 @@ from trunnion.results import tables
 APART = "largest less smallest over all answers; STARTS: same question, ORDERS: other load paths"
 
 
-def spread_tries(found: Sequence[Spread]) -> Sheet:
+def spread_tries(found: Sequence[Spread], units: ReportUnits) -> Sheet:
     """One row a try: which answer it came to, or why to none; or why a case has but one."""
     rows: list[tuple[Cell, ...]] = []
     for spread in found:
-        why = f"unique: {spread.unique}" if spread.unique else spread.cause
+        why = f"unique: {spread.unique}" if spread.unique else in_units(spread.cause or "", units)
         if why:
             rows.append((spread.case, None, None, None, why))
         for kind, s in _both(spread):
-            rows += [
-                (spread.case, kind, t.what, None if t.answer is None else t.answer + 1, t.cause)
-                for t in s.tried
-            ]
+            rows += [(spread.case, kind, t.what, *_found(t, units)) for t in s.tried]
     cells: list[Sequence[Cell]] = [*zip(*rows, strict=True)] or [()] * 5
     columns = [
         Column("CASE", cells[0]),
@@ -34,6 +32,13 @@ def spread_tries(found: Sequence[Spread]) -> Sheet:
     ]
     note = "answers are numbered a case and kind; none: no certified one, and why"
     return Sheet("spread_tries", "Other answers: tries", note, columns, groups=True)
+
+
+def _found(t: Tried, units: ReportUnits) -> tuple[Cell, Cell]:
+    """Number of the answer, or none and why."""
+    if t.answer is None:
+        return None, in_units(t.cause or "", units) or None
+    return t.answer + 1, t.cause
 
 
 def spread_loads(found: Sequence[Spread], units: ReportUnits) -> Sheet:

@@ -5,12 +5,14 @@ import numpy as np
 from trunnion.arrays import CaseResult, Results
 from trunnion.model import Model
 from trunnion.origin import origin_lines
+from trunnion.report.causes import told_cause
+from trunnion.report.counts import counted
 from trunnion.report.screen import all_warnings
 from trunnion.report.sheets import Cell, Column, Sheet, amounts
 from trunnion.report.summary import Largest, largest_of
 from trunnion.report.units import ReportUnits
 from trunnion.results.stresses import end_stresses
-from trunnion.results.supports import cause_of, is_good
+from trunnion.results.supports import is_good
 
 
 def summary(results: Results, units: ReportUnits) -> Sheet:
@@ -34,14 +36,14 @@ def summary(results: Results, units: ReportUnits) -> Sheet:
         Column("AT END", [at for _, at in peaks]),
     ]
     if not all(good):
-        causes = [None if f else cause_of(c) for c, f in zip(cases, good, strict=True)]
+        causes = [None if f else told_cause(c, units) for c, f in zip(cases, good, strict=True)]
         columns.append(Column("CAUSE", causes))
     counts = "no cases"
     if cases or results.base is not None:
         system = results.system
         counts = (
-            f"{len(system.labels)} nodes, {len(system.parts)} elements, "
-            f"{len(system.cards)} restraints; every certificate item is at most 1e-9"
+            f"{counted(len(system.labels), 'node')}, {counted(len(system.parts), 'element')}, "
+            f"{counted(len(system.cards), 'restraint')}; every certificate item is at most 1e-9"
         )
     return Sheet("summary", "Summary of cases", counts, columns)
 
@@ -97,7 +99,7 @@ def warnings(results: Results, model: Model, units: ReportUnits) -> Sheet:
     """Everything that a reader must know, one row a warning; first what a file left out."""
     cases = results.cases.values()
     texts = [] if model.origin is None else origin_lines(model.origin)
-    texts += [f"{case.name}: {cause_of(case)}" for case in cases if not is_good(case)]
+    texts += [f"{case.name}: {told_cause(case, units)}" for case in cases if not is_good(case)]
     texts += all_warnings(results, units)
     return Sheet(
         "warnings",

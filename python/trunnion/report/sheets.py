@@ -96,6 +96,6 @@ def all_sheets(results: Results, model: Model) -> list[Sheet]:
         from trunnion.report.sheet_spread import spread_forces, spread_loads, spread_tries
 
         others = list(results.spreads.values())
-        found += [spread_tries(others), spread_loads(others, units), spread_forces(others, units)]
+        found += [make(others, units) for make in (spread_tries, spread_loads, spread_forces)]
     found += [certificates(results), warnings(results, model, units)]
     return [sheet for sheet in found if len(sheet) or sheet.name in ("summary", "warnings")]

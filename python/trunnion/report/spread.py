@@ -5,7 +5,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from trunnion.arrays import F8, CaseResult, Results, Spread, Spreading
+from trunnion.report.causes import in_units
 from trunnion.report.columns import Column, integers, numbers, section, table, words, wrapped
+from trunnion.report.counts import counted
 from trunnion.report.units import ReportUnits
 from trunnion.results.supports import STATES, card_forces, card_levels
 
@@ -46,11 +48,11 @@ def verdict(spread: Spread, units: ReportUnits) -> str:
     if spread.unique:
         return f"{spread.unique}; spread 0"
     if spread.cause:
-        return f"nothing was tried: {spread.cause}"
+        return f"nothing was tried: {in_units(spread.cause, units)}"
     s = spread.starts
     good = sum(tried.answer is not None for tried in s.tried)
-    many = len(s.answers)
-    text = f"{many} answer{'s' * (many != 1)}, certified from {good} of {len(s.tried)} starts"
+    many, starts = counted(len(s.answers), "answer"), counted(len(s.tried), "start")
+    text = f"{many}, certified from {good} of {starts}"
     text += f"; {_largest(s, units)}"
     if spread.orders is not None and spread.orders.tried:
         text += f"; over {len(spread.orders.tried)} load orders {_largest(spread.orders, units)}"
@@ -93,7 +95,7 @@ def _shown(apart: F8, answers: Sequence[CaseResult], kind: int) -> F8:
 
 # ------------------------------------------------------------------ tables
 def _spreading(s: Spreading, title: str, units: ReportUnits) -> str:
-    text = section(title) + _tried(s) + _answers(s, units)
+    text = section(title) + _tried(s, units) + _answers(s, units)
     if s.supports is None or s.elements is None or not s.answers:
         return text
     system = s.answers[0].system
@@ -106,13 +108,14 @@ def _spreading(s: Spreading, title: str, units: ReportUnits) -> str:
     return text + _apart("SPREAD OF END FORCES", "ELEMENT", ends, elements, units)
 
 
-def _tried(s: Spreading) -> str:
+def _tried(s: Spreading, units: ReportUnits) -> str:
     found = [str(t.answer + 1) if t.answer is not None else "none" for t in s.tried]
+    why = [in_units(t.cause or "", units) for t in s.tried]
     return table(
         [
             words("TRIED", [t.what for t in s.tried], least=28),
             words("ANSWER", found),
-            words("NO CERTIFIED ANSWER BECAUSE", [t.cause or "" for t in s.tried], most=90),
+            words("NO CERTIFIED ANSWER BECAUSE", why, most=90),
         ]
     )
 

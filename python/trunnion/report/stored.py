@@ -8,6 +8,9 @@ from typing import Any
 
 import click
 
+from trunnion.origin import Assumption, LeftOut, Origin, origin_lines
+from trunnion.results.supports import by_state
+
 Case = Mapping[str, Any]
 FORCES = ("FX [N]", "FY [N]", "FZ [N]", "MX [N m]", "MY [N m]", "MZ [N m]")
 MOVES = ("DX [mm]", "DY [mm]", "DZ [mm]", "RX [deg]", "RY [deg]", "RZ [deg]")
@@ -18,6 +21,7 @@ COLOURS = {"open": "blue", "slip": "yellow", "stick": "green", "not converged": 
 def summary_text(report: Mapping[str, Any]) -> str:
     """Print the cases, their largest support load and certificate, and warnings."""
     lines = [click.style(_clean(str(report.get("title") or "no title")), bold=True)]
+    lines += [_clean(line) for line in _origin(report.get("origin"))]
     rows = [_summary(name, case) for name, case in report["cases"].items()]
     lines.append(table(("CASE", "ANSWER", "WORST OF CERTIFICATE", "LARGEST SUPPORT LOAD"), rows))
     for name, case in report["cases"].items():
@@ -26,6 +30,19 @@ def summary_text(report: Mapping[str, Any]) -> str:
         lines += [f"warning: {name}: {_clean(str(text))}" for text in case.get("warnings", [])]
     lines += [f"warning: {_clean(str(text))}" for text in report.get("warnings", [])]
     return "\n".join(lines)
+
+
+def _origin(stored: Any) -> list[str]:
+    """What of a foreign file is not in the numbers, as the run said it."""
+    if not stored:
+        return []
+    try:
+        left_out = [LeftOut(x["element"], x["feature"], x["where"]) for x in stored["left_out"]]
+        assumed = [Assumption(x["text"], x["where"]) for x in stored["assumed"]]
+        origin = Origin(stored["file"], stored["format"], tuple(left_out), tuple(assumed))
+    except (KeyError, TypeError):
+        return ['its "origin" is not one of trunnion run']
+    return origin_lines(origin)
 
 
 def _summary(name: str, case: Case) -> list[str]:
@@ -93,12 +110,18 @@ def _supports(supports: Iterable[Case]) -> str:
         [
             s["id"],
             str(s.get("name") or s.get("kind") or ""),
-            str(s.get("state") or "-"),
+            _state(s),
             *_forces(s["force"] + s["moment"]),
         ]
         for s in supports
     ]
     return table(("ID", "SUPPORT", "STATE", *FORCES), rows)
+
+
+def _state(support: Case) -> str:
+    """State of a support, or of its directions where they differ."""
+    pairs = [(str(c.get("dir")), str(c.get("state"))) for c in support.get("contacts") or ()]
+    return by_state(pairs) or str(support.get("state") or "-")
 
 
 def _forces(row: Sequence[float]) -> list[str]:

@@ -1,12 +1,15 @@
 """The text report of a study: what varies, every variant, failures, envelopes; and the screen."""
 
 from collections.abc import Sequence
+from itertools import chain
 
 import numpy as np
 
 from trunnion.arrays import F8
 from trunnion.many.study import Study
 from trunnion.model import Model
+from trunnion.origin import origin_lines
+from trunnion.report.causes import in_units
 from trunnion.report.columns import (
     PAGE,
     Column,
@@ -19,7 +22,10 @@ from trunnion.report.columns import (
     words,
     wrapped,
 )
+from trunnion.report.counts import counted
+from trunnion.report.origin import origin_text
 from trunnion.report.proof import ledger_table
+from trunnion.report.screen import PIPE, Room, messages
 from trunnion.report.units import ReportUnits, report_units
 from trunnion.results.supports import STATES
 
@@ -31,8 +37,9 @@ def study_report(study: Study, model: Model) -> bytes:
     """Write the whole report."""
     units = report_units(model.units)
     parts = ["TRUNNION   study of variants\n", f"{study.title or '(no title)'}\n"]
+    parts.append(origin_text(model.origin))
     parts += [chapter("1  WHAT VARIES"), _axes(study), wrapped(verdict(study))]
-    parts += [chapter("2  FAILURES"), *(_failures(study) or ["\n  none\n"])]
+    parts += [chapter("2  FAILURES"), *(_failures(study, units) or ["\n  none\n"])]
     parts.append(chapter("3  ENVELOPE OF LOADS ON RESTRAINTS"))
     parts += [_envelope(study, name, units) for name in study.cases]
     parts.append(chapter("4  VARIANTS"))
@@ -42,26 +49,29 @@ def study_report(study: Study, model: Model) -> bytes:
     return "".join(parts).encode(errors="replace")
 
 
-def study_screen(study: Study, model: Model) -> str:
-    """Print the largest loads with their variants, and the failures."""
+def study_screen(study: Study, model: Model, room: Room = PIPE) -> str:
+    """Print what is missing, the largest loads with their variants, and the failures."""
+    units = report_units(model.units)
     lines = [study.title] if study.title else []
-    lines += [_largest(study, name, report_units(model.units)) for name in study.cases]
+    if model.origin is not None:
+        lines += chain(*messages(origin_lines(model.origin), room))
+    lines += [_largest(study, name, units, room.columns) for name in study.cases]
     failures = study.failures
-    lines += [f"  {_told(study, *failure)}" for failure in failures[:SHOWN]]
+    said = [_told(study, *failure, units) for failure in failures[:SHOWN]]
     if len(failures) > SHOWN:
-        lines.append(f"  ... and {len(failures) - SHOWN} more failures in the report")
-    lines.append(f"  {verdict(study)}")
+        said.append(f"... and {counted(len(failures) - SHOWN, 'more failure')} in the report")
+    lines += chain(*messages([*said, verdict(study)], room))
     return "\n".join(lines)
 
 
 def verdict(study: Study) -> str:
     """Count what is certified."""
     n, good = len(study.names), study.good
-    answers = f"{int(good.sum())} of {good.size} answers certified"
+    answers = f"{int(good.sum())} of {counted(good.size, 'answer')} certified"
     worst = np.nanmax(study.answers.worst) if good.any() else 0.0
     work = study.work
     return (
-        f"{n} variant{'s' * (n != 1)} of {len(study.cases)} case{'s' * (len(study.cases) != 1)}: "
+        f"{counted(n, 'variant')} of {counted(len(study.cases), 'case')}: "
         f"{answers}, worst {worst:.1e}; symbolic analyses {work['analyse']}, "
         f"assemblies {work['assemble']}, factorisations {work['factorise']}"
     )
@@ -79,12 +89,12 @@ def _axes(study: Study) -> str:
     return f"\n{text}"
 
 
-def _failures(study: Study) -> list[str]:
-    return [wrapped(_told(study, *failure)) for failure in study.failures]
+def _failures(study: Study, units: ReportUnits) -> list[str]:
+    return [wrapped(_told(study, *failure, units)) for failure in study.failures]
 
 
-def _told(study: Study, i: int, j: int, cause: str) -> str:
-    return f"variant {i + 1} ({study.names[i]}), {study.cases[j]}: {cause}"
+def _told(study: Study, i: int, j: int, cause: str, units: ReportUnits) -> str:
+    return f"variant {i + 1} ({study.names[i]}), {study.cases[j]}: {in_units(cause, units)}"
 
 
 # ------------------------------------------------------------------ envelope
@@ -133,7 +143,7 @@ def _envelope(study: Study, name: str, units: ReportUnits) -> str:
     return text + "".join(out)
 
 
-def _largest(study: Study, name: str, units: ReportUnits) -> str:
+def _largest(study: Study, name: str, units: ReportUnits, width: int) -> str:
     """Print the supports with the largest forces of a case and the variants that govern them."""
     found = _on_restraint(study, name)
     if found is None or not study.system.cards:
@@ -153,7 +163,8 @@ def _largest(study: Study, name: str, units: ReportUnits) -> str:
             words("LOAD", [COMPONENTS[a] for a in axis[order].tolist()]),
             numbers("LARGEST", value[order], q, 13),
             words("  GOVERNED BY", [f"  {name}" for name in names]),
-        ]
+        ],
+        width=width,
     )
     return f"{name}: LARGEST FORCES ON RESTRAINTS\n{text}"
 

@@ -1,21 +1,26 @@
 """A study for programs: JSON and CSV, in SI, support forces on the pipe."""
 
-import csv
-import io
 from collections.abc import Iterator
 
 import numpy as np
 
 from trunnion.arrays import I4
 from trunnion.many.study import Study
+from trunnion.origin import Origin
+from trunnion.report.csv import csv_bytes
 from trunnion.report.encode import dump, finite, lines, listing, records, rows, words
+from trunnion.report.origin import origin_entry
+from trunnion.report.sheets import Cell
 from trunnion.results.supports import STATES, card_ids
 
 COMPONENTS = ("FX", "FY", "FZ", "MX", "MY", "MZ")
 
 
-def study_json(study: Study) -> bytes:
-    """Write the whole file: axes, variants with states and certificates, envelopes."""
+def study_json(study: Study, origin: Origin | None = None) -> bytes:
+    """Write the whole file: axes, variants with states and certificates, envelopes.
+
+    origin : the foreign file that the model came from, and what of it is not in the numbers.
+    """
     axes = (
         dump({"name": a.name, "values": list(a.values), "texts": list(a.texts)}) for a in study.axes
     )
@@ -28,6 +33,8 @@ def study_json(study: Study) -> bytes:
         "envelope": lines({name: _envelope(study, name) for name in study.cases}),
         "work": dump(study.work),
     }
+    if origin is not None:
+        parts["origin"] = origin_entry(origin)
     return (lines(parts) + "\n").encode()
 
 
@@ -78,10 +85,8 @@ def _envelope(study: Study, name: str) -> str:
 
 def envelope_csv(study: Study) -> bytes:
     """Write one row a case, support and component; loads on the pipe in N and N m."""
-    out = io.StringIO()
-    writer = csv.writer(out, lineterminator="\n")
     head = ["case", "support", "name", "component", "unit", "max", "max_variant", "min"]
-    writer.writerow([*head, "min_variant", "max_values", "min_values"])
+    rows: list[list[Cell]] = [[*head, "min_variant", "max_values", "min_values"]]
     ids = card_ids(study.system.cards)
     for name in study.cases:
         found = study.envelope(name)
@@ -94,28 +99,27 @@ def envelope_csv(study: Study) -> bytes:
                     ("", "") if which < 0 else (int(good[which]) + 1, study.names[good[which]])
                     for which in (e.highest_case[i, k], e.lowest_case[i, k])
                 ]
-                writer.writerow(
+                rows.append(
                     [
                         name, ids[i], card.name, component, "N" if k < 3 else "N m",
-                        repr(float(e.highest[i, k]) + 0.0), ends[0][0],
-                        repr(float(e.lowest[i, k]) + 0.0), ends[1][0], ends[0][1], ends[1][1],
+                        float(e.highest[i, k]) + 0.0, ends[0][0],
+                        float(e.lowest[i, k]) + 0.0, ends[1][0], ends[0][1], ends[1][1],
                     ]
                 )  # fmt: skip
-    return out.getvalue().encode()
+    return csv_bytes(rows)
 
 
 def variants_csv(study: Study) -> bytes:
     """Write one row a variant and case: values in SI, states, certificate, cause."""
-    out = io.StringIO()
-    writer = csv.writer(out, lineterminator="\n")
     names = [axis.name for axis in study.axes]
-    writer.writerow(["variant", *names, "case", "converged", "certificate", *STATES, "cause"])
+    rows: list[list[Cell]] = [
+        ["variant", *names, "case", "converged", "certificate", *STATES, "cause"]
+    ]
     a, count = study.answers, study.answers.count
     for i in range(len(study.names)):
         for j, name in enumerate(study.cases):
             good = a.cause[i][j] is None
-            worst = repr(float(a.worst[i, j])) if good else ""
-            values = [repr(value) for value in study.values[i].tolist()]
-            row = [i + 1, *values, name, int(good), worst, *count[i, j].tolist()]
-            writer.writerow([*row, a.cause[i][j] or ""])
-    return out.getvalue().encode()
+            worst = float(a.worst[i, j]) if good else ""
+            row = [i + 1, *study.values[i].tolist(), name, int(good), worst, *count[i, j].tolist()]
+            rows.append([*row, a.cause[i][j] or ""])
+    return csv_bytes(rows)

@@ -4,6 +4,7 @@ from trunnion.arrays import CaseResult, Results
 from trunnion.cases.default_cases import with_cases
 from trunnion.model import Case, Model
 from trunnion.report.answers import displacement_table, element_tables
+from trunnion.report.causes import told_cause
 from trunnion.report.columns import PAGE, chapter, section, wrapped
 from trunnion.report.dynamics import modes_text
 from trunnion.report.echo import input_echo
@@ -18,7 +19,7 @@ from trunnion.report.restraints import restraint_summary
 from trunnion.report.states import state_table
 from trunnion.report.summary import summary_table
 from trunnion.report.units import ReportUnits, report_units
-from trunnion.results.supports import cause_of, is_good
+from trunnion.results.supports import is_good
 
 CERTIFIED = (
     "Every case shows its certificate, computed from the reported numbers alone: every item is at "
@@ -37,7 +38,8 @@ def text_report(results: Results, model: Model) -> bytes:
     parts.append(origin_text(model.origin))
     parts.append(chapter("1  SUMMARY"))
     parts.append(summary_table(results, units))
-    parts += [wrapped(f"{c.name}: {cause_of(c)}") for c in results.cases.values() if not is_good(c)]
+    bad = [case for case in results.cases.values() if not is_good(case)]
+    parts += [wrapped(f"{case.name}: {told_cause(case, units)}") for case in bad]
     parts.append(warnings(results, units))
     parts.append(chapter("2  INPUT"))
     sums = {name: case.text for name, case in results.cases.items()}
@@ -80,7 +82,7 @@ def _case(case: CaseResult, units: ReportUnits, locked: bool) -> str:
     title = f"{case.name} = {case.text}"
     text = f"\n\n{title}\n{'=' * len(title)}\n"
     if not is_good(case):
-        text += wrapped(f"NOT CONVERGED, no numbers: {cause_of(case)}")
+        text += wrapped(f"NOT CONVERGED, no numbers: {told_cause(case, units)}")
         return text + certificate_table(case) + history_table(case)
     return text + "".join(
         (
@@ -105,5 +107,5 @@ def warnings(results: Results, units: ReportUnits) -> str:
     for case in results.cases.values():
         lines += [f"{case.name}: {line}" for line in case.warnings]
         lines += frozen_warning(case, units)
-    lines += mode_warnings(results) + cycle_warnings(results)
+    lines += mode_warnings(results) + cycle_warnings(results, units)
     return text + ("".join(wrapped(line) for line in lines) or "  none\n")

@@ -1,6 +1,6 @@
 """What each support card carries: the contacts and sliders of a case, gathered by card."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -113,6 +113,34 @@ def card_states(case: CaseResult) -> list[str | None]:
     if case.gathered is not None:
         return [None] * len(case.system.cards)
     return [STATES[i] for i in card_levels(case)]
+
+
+def direction_states(case: CaseResult) -> list[str | None]:
+    """States of the directions of each card where they differ: "open +Y, slip LIMIT".
+
+    The card's own state is that of the liveliest: slip, though its rest may have lifted off.
+    """
+    found: list[str | None] = [None] * len(case.system.cards)
+    if case.gathered is not None:
+        return found
+    contacts = case.system.contacts
+    of: dict[int, list[tuple[str, str]]] = {}
+    levels = contact_levels(case.system, solved(case)).tolist()
+    for card, word, level in zip(contacts.card.tolist(), contacts.word, levels, strict=True):
+        of.setdefault(card, []).append((word, STATES[level]))
+    for card, pairs in of.items():
+        found[card] = by_state(pairs)
+    return found
+
+
+def by_state(pairs: Iterable[tuple[str, str]]) -> str | None:
+    """Name directions (word, state) by their states; None where all have the same."""
+    of: dict[str, list[str]] = {}
+    for word, state in pairs:
+        of.setdefault(state, []).append(word)
+    if len(of) < 2:
+        return None
+    return ", ".join(f"{state} {' '.join(words)}" for state, words in of.items())
 
 
 def lifted_rests(case: CaseResult) -> list[int]:

@@ -7,7 +7,7 @@ results["OPE"].elements.column("axial_from")
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import fields
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -91,12 +91,9 @@ class Table:
         ------
         ImportError : pandas is not installed (extra pandas).
         """
-        try:
-            import pandas
-        except ImportError as error:
-            raise ImportError("to_pandas needs pandas: pip install 'trunnion[pandas]'") from error
+        pandas = pandas_module()
         columns = {**self.words, **dict(zip(self.columns, self.values.T, strict=True))}
-        frame = pandas.DataFrame(columns, index=pandas.Index(self.labels, name="label"))
+        frame: DataFrame = pandas.DataFrame(columns, index=pandas.Index(self.labels, name="label"))
         frame.attrs["units"] = dict(zip(self.columns, self.units, strict=True))
         return frame
 
@@ -112,6 +109,15 @@ class Table:
             "  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True))
             for row in rows
         )
+
+
+def pandas_module() -> Any:
+    """Import pandas, or name the extra that brings it."""
+    try:
+        import pandas
+    except ImportError as error:
+        raise ImportError("to_pandas needs pandas: pip install 'trunnion[pandas]'") from error
+    return pandas
 
 
 def displacements(case: CaseResult) -> Table:

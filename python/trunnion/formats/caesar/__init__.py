@@ -43,7 +43,7 @@ def read_job(findings: Findings, frame: Skeleton) -> Job:
     elements = Elements(columns, units, auxiliary, misc.materials).read(arrays["ELEMENTS"])
     coordinates = read_coordinates(columns, frame.sections.get("COORDS"), units)
     findings.stop()
-    if misc.ambient is None:
+    if misc.options.ambient is None:
         text = f"the file has no ambient temperature: {USUAL_AMBIENT:g} C (70 F)"
         findings.assume(text, frame.sections["MISCEL_1"].header)
     return Job(
@@ -52,10 +52,11 @@ def read_job(findings: Findings, frame: Skeleton) -> Job:
         misc.nozzles,
         coordinates,
         up="Z" if frame.counts["z_up"] else "Y",
-        ambient=USUAL_AMBIENT if misc.ambient is None else misc.ambient,
+        ambient=misc.options.ambient if misc.options.ambient is not None else USUAL_AMBIENT,
         units=units.names,
         titles=frame.titles,
         version=frame.version,
+        bourdon=misc.options.bourdon,
     )
 
 

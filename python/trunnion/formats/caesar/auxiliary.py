@@ -1,7 +1,7 @@
 """The arrays that elements point into: bends, rigids, restraints, displacements, forces ..."""
 
 from collections.abc import Callable
-from math import radians
+from math import pi, radians
 from typing import TypeVar
 
 from trunnion.formats.caesar.job import (
@@ -23,7 +23,8 @@ from trunnion.formats.findings import Findings
 
 T = TypeVar("T")
 FREE = 9999.99  # "not given" of displacements
-RIGID = 1e11 * LBF / INCH  # from here a support is rigid [N/m]: the program writes 1e12 lb/in
+# from here a support is rigid [N/m], [N m/rad]: the program writes 1e12 lb/in and 1e12 in-lb/deg
+RIGID, RIGID_TURNING = 1e11 * LBF / INCH, 1e11 * LBF * INCH * 180.0 / pi
 ROTATIONAL = frozenset((5, 6, 7, *range(19, 25), *range(39, 42), *range(48, 54)))
 
 
@@ -130,7 +131,7 @@ class Auxiliary:
             line,
             self.node(line, node),
             int(code),
-            None if k == 0.0 or k >= RIGID else k,
+            None if k == 0.0 or k >= (RIGID_TURNING if turning else RIGID) else k,
             radians(gap) if turning else scaled(gap, self.units.length),
             mu,
             self.node(line, cnode, 5),

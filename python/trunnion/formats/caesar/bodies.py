@@ -22,7 +22,6 @@ class Bodies:
         self.findings = findings
         self.properties = properties
         self.uniforms = uniform_loads(job)
-        self._bent = {e.end for e in job.elements if e.bend is not None}
         self._leaving: dict[int, list[int]] = {}
         self._long: dict[int, Element] = {}
         for i, e in enumerate(job.elements):
@@ -70,10 +69,6 @@ class Bodies:
             return pipe
         to = self.properties.section(replace(e, od=od, wall=wall, rigid=None))
         if to == pipe.section or not to:
-            return pipe
-        if {e.start, e.end} & self._bent:
-            text = "reducer at a bend; taken as pipe of the size at its FROM end"
-            self.findings.leave_out(data.line, f"element {e.start}-{e.end}", text)
             return pipe
         return replace(pipe, reducer=Reducer(to))
 

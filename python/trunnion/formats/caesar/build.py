@@ -2,9 +2,10 @@
 
 from dataclasses import replace
 
+from trunnion.formats.caesar.arcs import cut_bends
 from trunnion.formats.caesar.geometry import Labels
 from trunnion.formats.caesar.hangers import Hangers
-from trunnion.formats.caesar.job import Job
+from trunnion.formats.caesar.job import BOURDON, Job
 from trunnion.formats.caesar.loads import Loads
 from trunnion.formats.caesar.offsets import links_for_offsets
 from trunnion.formats.caesar.parts import Parts
@@ -26,12 +27,13 @@ def build(job: Job, findings: Findings, name: str, header: tuple[str, ...] = ())
     pressed = any(x for e in job.elements for x in e.p)
     bent = any(e.bend for e in job.elements)
     stiffen = "MAX" if pressed and bent else "OFF"
+    bourdon = BOURDON[job.bourdon or 0] if pressed else "OFF"
     model = Model(
         title=_title(job.titles),
         units=job.units,
-        settings=replace(Settings(), up=job.up, stiffen=stiffen),
+        settings=replace(Settings(), up=job.up, stiffen=stiffen, bourdon=bourdon),
     )
-    job = links_for_offsets(job, findings)
+    job = cut_bends(links_for_offsets(job, findings))
     job, hinges = flexible_tees(job, findings)
     labels = Labels(job, findings)
     pipes = Pipes(job, labels, model, findings)
@@ -56,6 +58,8 @@ def build(job: Job, findings: Findings, name: str, header: tuple[str, ...] = ())
     for records in (model.supports, model.displacements, model.forces):
         records.sort(key=lambda record: record.place.line)
     _assume(job, model, findings)
+    if bourdon != "OFF":
+        header += (f"Bourdon effects of pressure are on (BOURDON={bourdon}), as in the file",)
     return findings.finish(model, name, header)
 
 
@@ -114,11 +118,12 @@ def _assume(job: Job, model: Model, findings: Findings) -> None:
     if model.settings.stiffen != "OFF":
         text = "pressure stiffens bends by the largest pressure (STIFFEN=MAX), as in the program"
         findings.assume(text)
-    if any(p > 0.0 for pipe in model.pipes for p in pipe.operation.p.values()):
+    if job.bourdon is None and any(p for pipe in model.pipes for p in pipe.operation.p.values()):
         text = (
-            "Bourdon effects of pressure are off, as by default in the program; a job that has them"
+            "the file does not say whether Bourdon effects of pressure are on: off, as by default"
         )
-        findings.assume(f"{text} takes DEFAULT BOURDON=OPENING in its converted deck")
+        more = "a job that has them takes DEFAULT BOURDON=ELONGATION (translation) or OPENING"
+        findings.assume(f"{text} in the program; {more} (and rotation) in its converted deck")
     if bent and uses_b31j(job):
         findings.assume(
             "elbows of 90 degrees have k = 1.3/h (ASME B31J), as in version 14 by its "

@@ -30,9 +30,11 @@ class Directions:
                 return []
         if word in ("+LIM", "-LIM"):
             return self._one_sided(e, r, word)
-        if word in ("GUIDE", "LIMIT") and self._follows_owner(i, e, label):
+        node = int(label.rstrip("NMF"))
+        alone = node not in self.labels.at
+        if word in ("GUIDE", "LIMIT") and not alone and self._follows_owner(i, e, label):
             return self._along_owner(e, r, word)
-        if word in ("GUIDE", "LIMIT") and not self._has_pipe(int(label.rstrip("NMF"))):
+        if word in ("GUIDE", "LIMIT") and not self._has_pipe(node):
             text = f"{name_of(r.code)} where no element has a length; left out"
             self.findings.leave_out(r.line, f"node {r.node}", text)
             return []
@@ -73,8 +75,11 @@ class Directions:
         """Tell whether a guide or stop stands where the arc has left its element's direction.
 
         The program takes both from the element that owns them, at the end of its bend as well.
+        An owner that a stiff link joins to the node has lost that end.
         """
         node = int(label.rstrip("NMF"))
+        if node not in (e.start, e.end):
+            return size(e.delta) > 0.0
         corner = self.labels.corners.get(node)
         at_end = corner is not None and corner.before == i and label[-1] not in "N"
         return (at_end or not self._has_pipe(node)) and size(e.delta) > 0.0
@@ -82,8 +87,8 @@ class Directions:
     def _has_pipe(self, node: int) -> bool:
         """Tell whether a pipe ends at a node itself, without an offset, or has it on its arc."""
         here = self.labels.at.get(node)
-        if here is None:
-            return True
+        if here is None:  # of CNODEs alone
+            return False
         return any(
             size(e.delta) and not _arm(e, node) for e in map(self.job.elements.__getitem__, here)
         )
@@ -144,13 +149,13 @@ class Directions:
         corner = self.labels.corners.get(node)
         if corner is not None:  # the far end of a bend: others than the leaving pipe may turn
             alone = len(self.labels.at[node]) == 2
-            return None if alone else "-".join(self.labels.ends(corner.after))
+            return None if alone else self.labels.pipe_at(corner.after, node)
         if not size(e.delta):
             return None
         others = [self.job.elements[j].delta for j in self.labels.at[node]]
         if all(_parallel(e.delta, other) for other in others if size(other)):
             return None
-        return "-".join(self.labels.ends(i))
+        return self.labels.pipe_at(i, node)
 
 
 def _arm(e: Element, node: int) -> bool:

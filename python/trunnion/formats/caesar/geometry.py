@@ -1,5 +1,6 @@
 """Labels and bends: which label of the model each node of the job is."""
 
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from functools import cached_property
 from math import acos, degrees, tan
@@ -12,6 +13,7 @@ from trunnion.frozen import frozen
 STRAIGHT = 1e-5  # two elements that turn by less make no bend [rad]
 SAME_ANGLE = 0.1  # [deg]: a node this near to 0, the middle or the end of an arc is there
 SNAP = 1e-5  # a tangent that uses up its element to this length uses it up exactly [m]
+EVEN = 1e-9  # a body this little longer than the tangent of its bend is no longer [m]
 SHORT = 0.01  # of its length: an element may be so much too short for its bends
 
 
@@ -58,10 +60,52 @@ class Labels:
             return self.arc[node]
         return str(node) if node in self.at else None
 
+    def standing(self, node: int) -> str | None:
+        """Label of a node that supports or loads stand on; one that is only a CNODE has one too."""
+        return self.node(node) or (str(node) if node in self.connecting else None)
+
+    def cnode(self, node: int, line: int, what: str) -> str | None:
+        """Label of a CNODE, None for the ground: 0, or a node that nothing at all holds."""
+        label = self.node(node) if node else None
+        if not node or label is not None:
+            return label
+        if node in self.used:
+            return str(node)
+        text = f"{what} with CNODE {node}, which no element has and nothing holds; taken to ground"
+        self.findings.leave_out(line, f"node {node}", text)
+        return None
+
+    @cached_property
+    def connecting(self) -> set[int]:
+        """Nodes that supports, hangers and nozzles are connected to."""
+        job = self.job
+        found = {r.cnode for e in job.elements for r in e.restraints}
+        return found | {h.cnode for h in job.hangers} | {z.vessel for z in job.nozzles}
+
     def ends(self, i: int) -> tuple[str, str]:
         """Labels of both ends of element `i`."""
         e = self.job.elements[i]
         return self.end(i, e.start), self.end(i, e.end)
+
+    def weld(self, i: int) -> str | None:
+        """Label where the tangent of a bend ends and element `i`, a body that leaves it, begins.
+
+        None: it is no body, leaves no bend, ends in one, or is no longer than the tangent.
+        """
+        e = self.job.elements[i]
+        corner = self.corners.get(e.start)
+        body = (e.rigid, e.reducer, e.joint) != (None, None, None)
+        if not body or corner is None or self.tangent_at(i) != [e.start] or corner.after != i:
+            return None
+        return f"{e.start}T" if size(e.delta) - corner.tangent > EVEN else None
+
+    def pipe_at(self, i: int, node: int) -> str:
+        """Name the pipe of the model by which element `i` reaches one of its nodes: "30-40"."""
+        start, end = self.ends(i)
+        weld = self.weld(i)
+        if weld is None:
+            return f"{start}-{end}"
+        return f"{start}-{weld}" if node == self.job.elements[i].start else f"{weld}-{end}"
 
     def _corner(self, i: int, e: Element) -> None:
         """Find the element that leaves a bend, and its turn."""
@@ -71,7 +115,7 @@ class Labels:
         if e.end in self.corners:
             self.findings.fault(bend.line, f"{name}: node {e.end} has a bend already")
             return
-        after = self._leaving(i, e.end)
+        after = outgoing(self.job.elements, i, self.at[e.end])
         if after is None:
             text = f"{name}: the bend at {e.end} has no element that leaves it"
             self.findings.fault(bend.line, text)
@@ -82,8 +126,7 @@ class Labels:
             text = "bend on a rigid element; taken as a corner without bend"
             self.findings.leave_out(bend.line, name, text)
             return
-        cosine = _dot(e.delta, out) / (size(e.delta) * size(out)) if size(e.delta) else 1.0
-        turn = acos(min(1.0, max(-1.0, cosine)))
+        turn = turn_of(e.delta, out)
         if turn < STRAIGHT:
             self.findings.assume(
                 f"the bend at {e.end} does not turn: it is straight pipe", bend.line
@@ -95,14 +138,6 @@ class Labels:
         tangent = bend.radius * tan(0.5 * turn)
         self.corners[e.end] = Corner(i, after, turn, tangent, bend.radius)
 
-    def _leaving(self, i: int, node: int) -> int | None:
-        """Element that leaves a bend: the next of the file, else the first other one there."""
-        elements = self.job.elements
-        here = [j for j in self.at[node] if j != i and size(elements[j].delta) > 0.0]
-        if i + 1 in here and elements[i + 1].start == node:
-            return i + 1
-        return next(iter(here), None)
-
     def _use_up(self) -> None:
         """Let tangents that use up an element use it up exactly.
 
@@ -111,13 +146,13 @@ class Labels:
         radii = {node: c.radius for node, c in self.corners.items()}
         for _ in range(3):
             for i, e in enumerate(self.job.elements):
-                mine = self._mine(i)
+                mine = self.tangent_at(i)
                 used, length = sum(self.corners[n].tangent for n in mine), size(e.delta)
                 if mine and used != length and length - SNAP <= used <= length * (1.0 + SHORT):
                     for n in mine:
                         self._scale(n, length / used)
         for i, e in enumerate(self.job.elements):
-            used, length = sum(self.corners[n].tangent for n in self._mine(i)), size(e.delta)
+            used, length = sum(self.corners[n].tangent for n in self.tangent_at(i)), size(e.delta)
             if used > length + SNAP:
                 text = f"element {e.start}-{e.end} is {1e3 * length:.6g} mm long; its bends need "
                 self.findings.fault(e.line, f"{text}{1e3 * used:.6g} mm")
@@ -129,7 +164,7 @@ class Labels:
                 text += f"{1e3 * corner.radius:.6g} mm, not {1e3 * radius:.6g}"
                 self.findings.assume(text, e.bend.line if e.bend else e.line)
 
-    def _mine(self, i: int) -> list[int]:
+    def tangent_at(self, i: int) -> list[int]:
         """Nodes of the bends that element `i` is a tangent of."""
         e = self.job.elements[i]
         ends = [n for n in (e.start, e.end) if n in self.corners]
@@ -160,10 +195,37 @@ class Labels:
     @cached_property
     def used(self) -> set[int]:
         """Nodes that anything stands on, or that an element has."""
-        job = self.job
-        used = {r.node for e in job.elements for r in e.restraints}
-        used |= {s.node for e in job.elements for s in (*e.displacements, *e.forces)}
-        return used | {h.node for h in job.hangers} | self.at.keys()
+        return nodes_used(self.job)
+
+
+def nodes_used(job: Job) -> set[int]:
+    """Nodes that anything stands on, or that an element has."""
+    used = {r.node for e in job.elements for r in e.restraints}
+    used |= {s.node for e in job.elements for s in (*e.displacements, *e.forces)}
+    used |= {n for e in job.elements for n in (e.start, e.end)}
+    return used | {h.node for h in job.hangers}
+
+
+def outgoing(elements: Sequence[Element], i: int, here: Iterable[int] | None = None) -> int | None:
+    """Element that leaves the bend of element `i`: the next of the file, else the first other one.
+
+    Parameters
+    ----------
+    here : elements at the node of the bend, if that is known.
+    """
+    node = elements[i].end
+    following = elements[i + 1] if i + 1 < len(elements) else None
+    if following is not None and following.start == node and size(following.delta) > 0.0:
+        return i + 1
+    if here is None:
+        here = (j for j, e in enumerate(elements) if node in (e.start, e.end))
+    return next((j for j in here if j != i and size(elements[j].delta) > 0.0), None)
+
+
+def turn_of(before: Vec, after: Vec) -> float:
+    """Angle by which the pipe turns from one direction to the next [rad]."""
+    cosine = _dot(before, after) / (size(before) * size(after)) if size(before) else 1.0
+    return acos(min(1.0, max(-1.0, cosine)))
 
 
 def size(v: Vec) -> float:

@@ -10,6 +10,7 @@ Nine = tuple[float | None, ...]
 Six = tuple[float | None, ...]
 Vec = tuple[float, float, float]
 MIDDLE = -2.0202  # angle of a bend's node that means "M"
+BOURDON = ("OFF", "ELONGATION", "OPENING")  # there: none, translation, translation and rotation
 
 
 @frozen
@@ -23,6 +24,7 @@ class BendData:
     miters: int = 0
     fitting_wall: float = 0.0
     k: float = 0.0
+    whole: float = 0.0  # turn of the bend that this one is a part of [rad]; 0: it is whole
 
 
 @frozen
@@ -166,6 +168,7 @@ class HangerData:
     variation: float = 25.0  # [%]
     rod: float = 0.0  # a rigid rod up to this travel [m]
     most: float | None = None  # a constant support above this travel [m]
+    space: float = 0.0  # available above the pipe, below it where negative [m]
     cold_design: bool = False
     number: int = 1
     cnode: int = 0
@@ -196,3 +199,4 @@ class Job:
     units: Units = Units("mm", "N", "bar", "C")
     titles: tuple[str, ...] = ()
     version: float = 0.0  # of the program
+    bourdon: int | None = None  # number of BOURDON; None: the file does not say

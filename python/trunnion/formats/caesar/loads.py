@@ -16,8 +16,6 @@ class Loads:
         self.model = model
         self.findings = findings
         self._done: set[int] = set()  # identities: all records of an XML may stand on one line
-        self._cnodes = {r.cnode for e in job.elements for r in e.restraints}
-        self._cnodes |= {h.cnode for h in job.hangers} | {z.vessel for z in job.nozzles}
         self._anchored = {s.node for s in model.supports if s.kind == "anchor"}
 
     def element(self, e: Element) -> None:
@@ -60,15 +58,11 @@ class Loads:
         if id(record) in self._done:
             return None
         self._done.add(id(record))
-        label = self.labels.node(record.node) or self._connecting(record.node)
+        label = self.labels.standing(record.node)
         if label is None:
             text = f"{what} at node {record.node}, which no element has"
             self.findings.leave_out(record.line, f"node {record.node}", text)
         return label
-
-    def _connecting(self, node: int) -> str | None:
-        """Label of a node that is only a CNODE of restraints."""
-        return str(node) if node in self._cnodes else None
 
     def _displacements(self, e: Element, record: Sets, label: str) -> None:
         """Add imposed displacements; six zeros alone are an anchor."""

@@ -11,13 +11,26 @@ USUAL_AMBIENT = 21.11  # C, 70 F: of the program
 
 
 @frozen
+class Options:
+    """Execution options: ambient temperature [C], Bourdon effects (`job.BOURDON`); None: not said.
+
+    Their order is that of the user's guide: print forces, print alphas, Bourdon effects, branch
+    errors, thermal bowing, liberal allowables; uniform loads in g, stress stiffening, ambient ...
+    The input echo that version 11 printed for a public job has the same values in these places.
+    """
+
+    ambient: float | None = None
+    bourdon: int | None = None
+
+
+@frozen
 class Misc:
-    """What MISCEL_1 says; `ambient` in C, None where the options are missing."""
+    """What MISCEL_1 says."""
 
     materials: list[int]
-    nozzles: tuple[Nozzle, ...]
-    hangers: tuple[HangerData, ...]
-    ambient: float | None
+    nozzles: tuple[Nozzle, ...] = ()
+    hangers: tuple[HangerData, ...] = ()
+    options: Options = Options()
 
 
 def read_misc(columns: Columns, frame: Skeleton, units: FileUnits) -> Misc:
@@ -29,28 +42,40 @@ def read_misc(columns: Columns, frame: Skeleton, units: FileUnits) -> Misc:
     if section.n_line < n_line:
         text = f"MISCEL_1 has {section.n_line} lines; {n_line} of material numbers are needed"
         columns.findings.fault(section.header, text)
-        return Misc([0] * n_elem, (), (), None)
+        return Misc([0] * n_elem)
     materials = [_whole(x) for x in columns.many(at, n_elem)]
     at += n_line
     nozzles: list[Nozzle] = []
     for _ in range(frame.counts["nozzles"]):
         if at + 3 > section.last:
             columns.findings.fault(section.header, "MISCEL_1 ends within the nozzles")
-            return Misc(materials, tuple(nozzles), (), None)
+            return Misc(materials, tuple(nozzles))
         node, vessel = (_whole(x) for x in columns.reals(at, 6)[:2])
         nozzles.append(Nozzle(at, node, vessel))
         at += 4
     hangers: tuple[HangerData, ...] = ()
     if n_hanger:
-        strings = frame.sections["ELEMENTS"].n_line >= 15 * n_elem
-        needed = 2 + -(-n_hanger // 6) * 5 + n_hanger * (5 if strings else 3)
-        if section.last - at + 1 < needed:
+        lists, here = 2 + -(-n_hanger // 6) * 5, section.last - at + 1
+        strings = _has_tags(here - lists, n_hanger, late=_is_late(frame))
+        needed = lists + n_hanger * (5 if strings else 3)
+        if here < needed:
             text = f"MISCEL_1 ends within the data of {n_hanger} hangers"
             columns.findings.fault(section.header, text)
-            return Misc(materials, tuple(nozzles), (), None)
+            return Misc(materials, tuple(nozzles))
         hangers = _hangers(columns, at, n_hanger, units, strings=strings)
         at += needed
-    return Misc(materials, tuple(nozzles), hangers, _ambient(columns, section, at, units))
+    return Misc(materials, tuple(nozzles), hangers, _options(columns, section, at, units))
+
+
+def _is_late(frame: Skeleton) -> bool:
+    """Tell whether elements have names, as from version 8 on."""
+    return frame.sections["ELEMENTS"].n_line >= 15 * frame.counts["ELEMENTS"]
+
+
+def _has_tags(n_line: int, n_hanger: int, *, late: bool) -> bool:
+    """Tell whether hangers have a tag and a GUID, two lines: what is left are 3 or 4 of options."""
+    fits = [n_line - n_hanger * each in (3, 4) for each in (3, 5)]
+    return late if fits[0] == fits[1] else fits[1]
 
 
 def _whole(value: float) -> int:
@@ -74,17 +99,18 @@ def _hangers(
     found = []
     for i in range(n):
         line = first + i * step
-        v = columns.many(line, 11 if strings else 10)
+        v = columns.many(line, 11)  # the last one came with the tags
         found.append(
             HangerData(
                 line,
                 nodes[i],
                 rate=scaled(v[0], units.kt),
                 cold_load=scaled(v[4], units.force),
-                hot_load=scaled(v[5], units.force),
-                constant=scaled(v[10], units.force) if strings else 0.0,
+                hot_load=scaled(v[5] or v[6], units.force),  # the second is the user's
+                constant=scaled(v[10], units.force),
                 variation=v[1] or usual[1] or 25.0,
                 rod=max(0.0, scaled(v[2] or usual[2], units.length)),
+                space=scaled(v[3], units.length) if abs(v[3]) < FREE - 0.01 else 0.0,
                 most=next((scaled(x, units.length) for x in (v[7], usual[3]) if _limit(x)), None),
                 cold_design=cold,
                 number=number[i],
@@ -117,12 +143,22 @@ def _list(columns: Columns, line: int, n: int) -> list[int]:
     return found
 
 
-def _ambient(columns: Columns, section: Section, at: int, units: FileUnits) -> float | None:
-    """Read the ambient temperature: the third value of the second line of options."""
+def _options(columns: Columns, section: Section, at: int, units: FileUnits) -> Options:
+    """Read the first two lines of execution options; files made by hand may end before them."""
     if at + 1 > section.last:
-        return None
-    value = columns.reals(at + 1, 6)[2]
-    return clean(units.celsius(value)) if value else None
+        return Options()
+    *_, bourdon, _, bowing, _ = columns.reals(at, 6)
+    _, stiffened, ambient, *_ = columns.reals(at + 1, 6)
+    if bourdon not in (0.0, 1.0, 2.0):
+        text = f"{bourdon:g} is no choice of Bourdon effects: 0 none, 1 translation, 2 rotation too"
+        columns.findings.fault(at, text, (28, 41))
+        bourdon = 0.0
+    for value, name in ((bowing, "thermal bowing"), (stiffened, "stress stiffening by pressure")):
+        if value:
+            line = at if name == "thermal bowing" else at + 1
+            columns.findings.leave_out(line, "job", f"{name} is on; taken as off")
+    celsius = clean(units.celsius(ambient)) if ambient else None
+    return Options(celsius, int(bourdon))
 
 
 def read_coordinates(

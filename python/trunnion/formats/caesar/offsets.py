@@ -1,6 +1,7 @@
-"""Offsets of elements that are tangents of bends: a stiff link of its own leads to the pipe.
+"""Offsets of elements that no pipe with offsets can be: a stiff link of its own leads to them.
 
-A pipe of the model with offsets cannot be the tangent of a bend, so the arm becomes an element.
+A pipe of the model with offsets can neither be the tangent of a bend nor a rigid, a reducer or a
+joint, so the arm becomes an element.
 """
 
 from dataclasses import replace
@@ -12,12 +13,13 @@ NONE: Vec = (0.0, 0.0, 0.0)
 
 
 def links_for_offsets(job: Job, findings: Findings) -> Job:
-    """Give the job with the offsets of elements at bends as elements without weight."""
+    """Give the job with the offsets of bodies and of elements at bends as weightless elements."""
     bends = {e.end for e in job.elements if e.bend is not None}
     number = max(max(e.start, e.end) for e in job.elements) + 1
     made: list[Element] = []
     for e in job.elements:
-        if e.offsets is None or not {e.start, e.end} & bends:
+        body = (e.rigid, e.joint, e.reducer) != (None, None, None)
+        if e.offsets is None or not (body or {e.start, e.end} & bends):
             made.append(e)
             continue
         first = _kept(e, e.start, e.offsets.start, bends, findings)

@@ -6,7 +6,7 @@ from trunnion.formats.caesar.bendfactors import factor_of
 from trunnion.formats.caesar.bodies import Bodies
 from trunnion.formats.caesar.geometry import Labels, size
 from trunnion.formats.caesar.job import Element, Job, Vec
-from trunnion.formats.caesar.properties import Properties
+from trunnion.formats.caesar.properties import Properties, coefficient
 from trunnion.formats.caesar.tees import uses_b31j
 from trunnion.formats.findings import Findings
 from trunnion.model import Bend, Model, Pipe, Support
@@ -46,7 +46,7 @@ class Pipes:
             modulus = self.model.materials[self.properties.material(e)].e
             factor = factor_of(bend, e, corner, modulus, b31j=uses_b31j(self.job))
             if factor.text and factor.k != bend.k and "B31J" not in factor.text:
-                text = f"element {e.start}-{e.end}: {factor.text}"
+                text = f"bend at {node}: {factor.text}"
                 self.findings.assume(text, bend.line)
             place = self.findings.place(e.line)
             made = Bend(str(node), corner.radius, k=factor.k, flanges=bend.flanges, place=place)
@@ -61,8 +61,8 @@ class Pipes:
         """Tell what of an element has no counterpart."""
         leave = self.findings.leave_out
         strains = [n + 1 for n, x in enumerate(e.strain) if x is not None]
-        if strains:
-            text = f"T{strains[0]} is an expansion (length by length), not a temperature"
+        if strains and coefficient(e) is None:
+            text = f"T{strains[0]} is an expansion (length by length), others are temperatures"
             leave(e.line, name, f"{text}; taken as ambient temperature")
 
     def _tie(self, i: int, e: Element) -> None:
@@ -75,7 +75,7 @@ class Pipes:
         self.findings.note(made, f"element {i + 1} (line {e.line}) without length")
 
     def _pipe(self, i: int, e: Element) -> None:
-        """Add one pipe or body; a rigid at a bend has a pipe for its tangent."""
+        """Add one pipe or body; a body that leaves a bend has a pipe for its tangent."""
         section, material = self.properties.section(e), self.properties.material(e)
         operation = self.properties.operation(e)
         if not section:
@@ -86,19 +86,29 @@ class Pipes:
         if e.offsets is not None:
             arms = e.offsets.start, e.offsets.end
             made = replace(made, offsets=tuple(arm if any(arm) else None for arm in arms))
-        corner = self.labels.corners.get(e.start)
-        if e.rigid is not None and corner is not None and corner.after == i:
-            part = corner.tangent / size(e.delta)
-            if size(e.delta) - corner.tangent <= 1e-9:
-                text = "rigid element that is no longer than the tangent of a bend; taken as pipe"
-                self.findings.leave_out(e.line, f"element {e.start}-{e.end}", text)
-                e = replace(e, rigid=None)
-            else:
-                weld = f"{e.start}T"
-                tangent = replace(made, end=weld, delta=_times(part, e.delta))
-                self._append(i, e, tangent, "tangent of the bend before the rigid")
-                made = replace(made, start=weld, delta=_times(1.0 - part, e.delta))
+        weld = self.labels.weld(i)
+        if weld is not None:
+            part = self.labels.corners[e.start].tangent / size(e.delta)
+            tangent = replace(made, end=weld, delta=_times(part, e.delta))
+            tangent = replace(tangent, uniform=self.bodies.uniforms[i])
+            self._append(i, e, tangent, "tangent of the bend before the body")
+            e = replace(e, delta=_times(1.0 - part, e.delta))
+            made = replace(made, start=weld, delta=e.delta)
+        else:
+            e = self._without_body(i, e)
         self._append(i, e, self.bodies.dressed(i, e, made))
+
+    def _without_body(self, i: int, e: Element) -> Element:
+        """Give an element that is nothing but the tangent of a bend as plain pipe, and say so."""
+        bends = self.labels.tangent_at(i)
+        if e.start in bends or e.end in bends:
+            bodies = {"rigid": e.rigid, "reducer": e.reducer, "expansion joint": e.joint}
+            for what in (name for name, body in bodies.items() if body is not None):
+                where = "ends in" if e.end in bends else "is no longer than the tangent of"
+                text = f"{what} that {where} a bend; taken as pipe of the size at its FROM end"
+                self.findings.leave_out(e.line, f"element {e.start}-{e.end}", text)
+            e = replace(e, rigid=None, reducer=None, joint=None)
+        return e
 
     def _append(self, i: int, e: Element, made: Pipe, more: str = "") -> None:
         """Add one pipe with its comment."""

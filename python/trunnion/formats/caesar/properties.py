@@ -1,10 +1,15 @@
 """Materials, sections, temperatures and pressures of the elements."""
 
+from dataclasses import replace
+
 from trunnion.formats.caesar import materials as mt
 from trunnion.formats.caesar.job import Element, Job
+from trunnion.formats.caesar.units import clean
 from trunnion.formats.findings import Findings
 from trunnion.model import SETS, Material, Model, Operation, Section
 
+STRAINED = 100.0  # warming of an element whose largest expansion the file gives [K]
+THIN = 1e-3  # of the OD: a wall below is none that anybody makes
 HOT = 1.0  # a temperature this near to ambient needs no expansion [K]
 USUAL_INSULATION = 0.006655  # lb/in3: of the program where none is given
 
@@ -16,7 +21,10 @@ class Properties:
         self.job = job
         self.model = model
         self.findings = findings
-        self.t_sets = [n for n in range(9) if any(e.t[n] is not None for e in job.elements)]
+        given = [
+            {n for n in range(9) if (e.t[n], e.strain[n]) != (None, None)} for e in job.elements
+        ]
+        self.t_sets = sorted(set().union(*given))
         self.p_sets = [n for n in range(9) if any(e.p[n] is not None for e in job.elements)]
         self._materials: dict[tuple[object, ...], str] = {}
         self._sections: dict[tuple[float, ...], str] = {}
@@ -24,7 +32,13 @@ class Properties:
 
     def operation(self, e: Element) -> Operation:
         """Temperatures and pressures; a blank is ambient, and no pressure."""
-        ambient = self.job.ambient
+        ambient, alpha = self.job.ambient, coefficient(e)
+        if alpha:
+            e = replace(e, t=tuple(None if x is None else ambient + x / alpha for x in e.strain))
+            text = (
+                "expansions (length by length) instead of temperatures have a coefficient of their "
+            )
+            self.findings.assume(f"{text}own and are written as temperatures", e.line)
         t = {SETS[n]: ambient if e.t[n] is None else e.t[n] for n in self.t_sets}
         cold = [SETS[n] for n in self.t_sets if e.t[n] is None]
         if cold:
@@ -35,7 +49,7 @@ class Properties:
 
     def material(self, e: Element) -> str:
         """Name of the element's material."""
-        key = (e.material, e.e, e.nu, e.density)
+        key = (e.material, e.e, e.nu, e.density, coefficient(e))
         if key not in self._materials:
             self._materials[key] = self._new_material(e)
         name = self._materials[key]
@@ -55,6 +69,11 @@ class Properties:
             self.findings.fault(e.line, text)
             return ""
         self._wall = wall
+        if wall < THIN * e.od:
+            text = (
+                f"a wall of {1e3 * wall:g} mm at an OD of {1e3 * e.od:g} mm looks like a stand-in"
+            )
+            self.findings.assume(f"{text}: weight and stiffness follow from it", e.line)
         weight = e.cover_weight or self._cladding(e, wall)
         insulation_density = 0.0 if e.cover_weight else e.insulation_density
         lining = min(e.lining, 0.5 * e.od - wall)
@@ -84,29 +103,37 @@ class Properties:
             return name
         if e.material == mt.PLASTIC:
             self._leave_out(e, "material 20: fibre reinforced plastic; taken as isotropic")
-        elif family is None and e.material not in (mt.CUT_SHORT, mt.CUT_LONG):
-            self._leave_out(e, f"material {e.material}{called} is not known; taken as carbon steel")
+        elif family is None and e.material not in (mt.CUT_SHORT, mt.CUT_LONG) and self._lacks(e):
+            lacking = "expansion" if e.e and e.nu and e.density else "constants"
+            text = f"material {e.material}{called} is not known, and its {lacking} not in the file"
+            self._leave_out(e, f"{text}; taken as carbon steel (change MATERIAL in the deck)")
         family = family or mt.FAMILIES[1]
         late = self.job.version >= mt.LATE_VERSION
         made = mt.material_of(name, family, e.e, e.nu, e.density, late=late)
         if late and (made.grade or "").endswith(mt.IID):
             text = "carbon and low alloy steels expand by ASME II-D Table TE-1, as in versions "
             self.findings.assume(f"{text}from {mt.LATE_VERSION:g} on (before: B31.3 Table C-1)")
-        made = Material(
-            *(made.name, made.e, made.nu, made.alpha, made.density, made.grade),
-            *(made.table, made.table_tref),
-            self.findings.place(e.line),
-        )
+        alpha = coefficient(e)
+        if alpha:
+            made = Material(made.name, made.e, made.nu, alpha, made.density)
+        made = replace(made, place=self.findings.place(e.line))
         self.model.materials[name] = made
         given = [w for w, x in (("E", e.e), ("NU", e.nu), ("DENSITY", e.density)) if x]
         source = f"{', '.join(given)} as in the file" if given else "constants of its data base"
+        source += ", expansion as in the file" if alpha else ""
         self.findings.note(made, f"material {e.material} ({family.name}): {source}")
         return name
+
+    def _lacks(self, e: Element) -> bool:
+        """Tell whether a material that is not known is hot anywhere, or has no constants."""
+        same = [x for x in self.job.elements if x.material == e.material]
+        hot = any(t is not None and abs(t - self.job.ambient) > HOT for x in same for t in x.t)
+        return hot or not (e.e and e.nu and e.density)
 
     def _warn_of_expansion(self, e: Element) -> None:
         """A material without a table of expansion must not be hot."""
         family = mt.FAMILIES.get(e.material)
-        if family is None or family.grade is not None:
+        if family is None or family.grade is not None or coefficient(e):
             return
         if any(t is not None and abs(t - self.job.ambient) > HOT for t in e.t):
             text = f"material {e.material} ({family.name}): its expansion is known at 21 C only"
@@ -140,6 +167,14 @@ class Properties:
         if key not in self._materials:
             self._materials[key] = text
             self.findings.leave_out(e.line, f"element {e.start}-{e.end}", text)
+
+
+def coefficient(e: Element) -> float | None:
+    """Coefficient of an element that has expansions instead of temperatures, else None [1/K]."""
+    largest = max((abs(x) for x in e.strain if x is not None), default=0.0)
+    if not largest or any(t is not None for t in e.t):
+        return None
+    return clean(largest / STRAINED)
 
 
 def _unused(name: str, known: dict[str, Material] | dict[str, Section]) -> str:

@@ -40,15 +40,14 @@ class Restraints:
 
     def _places(self, e: Element, r: Restraint) -> Iterator[tuple[str, str | None]]:
         """Give the labels of the node and CNODE, once for each different restraint."""
-        label = self.labels.node(r.node)
+        label = self.labels.standing(r.node)
         key = (r.node, r.code, r.stiffness, r.gap, r.mu, r.cnode, r.cosines)
         if label is None:
             text = f"restraint {name_of(r.code)} at node {r.node}, which no element has"
             self.findings.leave_out(r.line, f"node {r.node}", text)
         elif key not in self._seen:
             self._seen.add(key)
-            other = self.labels.node(r.cnode) or str(r.cnode)
-            yield label, other if r.cnode else None
+            yield label, self.labels.cnode(r.cnode, r.line, f"restraint {name_of(r.code)}")
         else:
             text = "restraints that are given twice, with equal values, are one support"
             self.findings.assume(text, r.line)

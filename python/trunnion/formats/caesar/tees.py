@@ -122,7 +122,12 @@ def _hinge(
 
 
 def _out_of_plane(branch: Element, run: Element) -> float:
-    """Flexibility factor of a welding tee's branch, out of plane (B31J-2017, Table 1-1)."""
+    """Flexibility factor of a welding tee's branch, out of plane (B31J-2017, Table 1-1).
+
+    It is 0 where the sizes are none of pipes: `Properties` names those.
+    """
+    if not all(0.0 < 2.0 * e.wall < e.od for e in (branch, run)):
+        return 0.0
     mean = run.od - run.wall
     q, t = (branch.od - branch.wall) / mean, branch.wall / run.wall
     shape = 0.34 * q - 0.49 * q**2 + 0.18 * q**3

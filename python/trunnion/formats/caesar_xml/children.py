@@ -2,7 +2,8 @@
 
 from math import radians
 
-from trunnion.formats.caesar.auxiliary import RIGID, ROTATIONAL
+from trunnion.formats.caesar.auxiliary import FREE as UNLIMITED
+from trunnion.formats.caesar.auxiliary import RIGID, RIGID_TURNING, ROTATIONAL
 from trunnion.formats.caesar.job import (
     BendData,
     HangerData,
@@ -98,7 +99,7 @@ class Children:
             tag.line,
             node,
             code,
-            None if k is None or k == 0.0 or k >= RIGID else k,
+            None if not k or k >= (RIGID_TURNING if turning else RIGID) else k,
             radians(gap) if turning else gap * units.length,
             mu,
             n.node(tag, "CNODE"),
@@ -116,7 +117,8 @@ class Children:
         factors = (*(self.units.length,) * 3, *(radians(1.0),) * 3)
         for k, values in found.items():
             rows[k] = tuple(
-                None if x is None else x * f for x, f in zip(values, factors, strict=True)
+                None if x is None or abs(x) >= UNLIMITED - 0.01 else x * f
+                for x, f in zip(values, factors, strict=True)
             )
         held = [k for k in range(9) if k not in found and (k == 0 or len(found) >= 5)]
         for k in held:
@@ -165,12 +167,25 @@ class Children:
             hot_load=max(0.0, n.of(tag, "HOT_LOAD")) * self.units.force,
             constant=max(0.0, constant) * self.units.force,
             variation=n.get(tag, "LOAD_VAR") or 25.0,
+            rod=max(0.0, n.of(tag, "RIGID_SUP")) * self.units.length,
+            most=self._most(tag),
+            space=self._travel(tag, "AVAIL_SPACE"),
             number=max(1, n.whole(tag, "NUM_HGR", 1)),
             cnode=n.node(tag, "CNODE"),
             table=max(0, n.whole(tag, "HGR_TABLE")),
             tag=tag.attributes.get("TAG", "").strip(),
             free=self._freed(tag),
         )
+
+    def _travel(self, tag: Tag, name: str) -> float:
+        """Read a length of a hanger [m]; 9999.99 stands for none."""
+        value = self.numbers.of(tag, name)
+        return value * self.units.length if abs(value) < UNLIMITED - 0.01 else 0.0
+
+    def _most(self, tag: Tag) -> float | None:
+        """Read the travel above which a constant support is taken [m]."""
+        travel = self._travel(tag, "MAX_TRAVEL")
+        return travel if travel > 0.0 else None
 
     def _freed(self, tag: Tag) -> tuple[tuple[int, int], ...]:
         """Nodes that a hanger's design frees, and the codes of their freedoms."""

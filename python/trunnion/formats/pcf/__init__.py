@@ -21,6 +21,7 @@ from trunnion.formats.pcf.points import Point
 from trunnion.formats.pcf.properties import Resolver
 from trunnion.formats.pcf.shapes import Form, form_of
 from trunnion.formats.pcf.supports import add_anchor, add_anchors, add_supports, report_ends
+from trunnion.formats.pcf.words import LOOSE_ENDS
 from trunnion.formats.sidetable import SideTable, read_table
 from trunnion.formats.source import Source
 from trunnion.model import Model, Place, Settings, Units
@@ -110,14 +111,14 @@ def _halt(resolver: Resolver, parts: Sequence[Part], findings: Findings) -> None
 
 
 def _missing(line: Line, parts: Sequence[Part]) -> Iterator[tuple[str, Point]]:
-    """Points at which the line goes on in something that the model lacks, or is closed."""
+    """Points at which the line goes on in something that the model lacks, or ends for good."""
     for name, point in line.gone:
         yield f"{name} is left out", point
     for part in parts:
         for point in part.branches if part.shape == "teed" else ():
             yield f"the branch of {part.name} is left out", point
     for keyword, point, _ in line.ends:
-        if keyword == "END-POSITION-CLOSED":
+        if keyword in LOOSE_ENDS:
             yield keyword, point
 
 

@@ -66,12 +66,23 @@ def blocks(source: Source, findings: Findings) -> list[Block]:
 
 
 def _rows(source: Source) -> Iterator[tuple[bool, Attribute]]:
-    """Yield each line that is not blank, and whether it is indented."""
+    """Yield each line that is not blank, and whether it is indented.
+
+    A CONTINUATION goes on with the text of the line before it, wherever it stands.
+    """
+    last: tuple[bool, Attribute] | None = None
     for number, line in enumerate(source.lines, 1):
         word, _, value = line.strip().replace("\t", " ").partition(" ")
-        if word:
-            name = word.upper().strip("<>")
-            yield line[0] in " \t", Attribute(name, value.strip(), number)
+        name = word.upper().strip("<>")
+        if name == "CONTINUATION" and last is not None:
+            deep, row = last
+            last = deep, replace(row, value=f"{row.value} {value.strip()}".strip())
+        elif word:
+            if last is not None:
+                yield last
+            last = line[0] in " \t", Attribute(name, value.strip(), number)
+    if last is not None:
+        yield last
 
 
 def _decimals(

@@ -51,6 +51,9 @@ ENDS = (
     "END-CONNECTION-PIPELINE",
 )
 
+#: ends that no equipment holds: capped, or a vent or drain that ends in the air
+LOOSE_ENDS = ("END-POSITION-CLOSED", "END-POSITION-VENT", "END-POSITION-DRAIN")
+
 UNITS = (
     *("UNITS-BORE", "UNITS-CO-ORDS", "UNITS-WEIGHT", "UNITS-WEIGHT-LENGTH"),
     *("UNITS-BOLT-DIA", "UNITS-BOLT-LENGTH"),

@@ -10,12 +10,13 @@ from pathlib import Path
 
 from trunnion.arrays import Results
 from trunnion.model import Model
+from trunnion.report.causes import told_cause
 from trunnion.report.html.scene import scene
 from trunnion.report.html.story import stories
 from trunnion.report.html.tables import tables
 from trunnion.report.screen import all_warnings
 from trunnion.report.units import report_units
-from trunnion.results.supports import cause_of, is_good
+from trunnion.results.supports import is_good
 
 HERE = Path(__file__).parent
 
@@ -27,6 +28,7 @@ def files(results: Results, model: Model, stem: str) -> dict[str, bytes]:
 
     units = report_units(model.units)
     cases = results.cases.values()
+    bad = {case.name: told_cause(case, units) for case in cases if not is_good(case)}
     data = {
         "scene": scene(results, units),
         "tables": tables(results, model),
@@ -41,8 +43,9 @@ def files(results: Results, model: Model, stem: str) -> dict[str, bytes]:
     )
     page = environment.get_template("page.html.j2").render(
         title=results.title or stem,
-        cases=[(c.name, c.text, is_good(c), None if is_good(c) else cause_of(c)) for c in cases],
+        cases=[(c.name, c.text, c.name not in bad, bad.get(c.name)) for c in cases],
         worst=max((c.certificate.worst for c in cases if c.certificate), default=None),
+        origin=model.origin,
         warnings=all_warnings(results, units),
         deck=model.deck(),
         data=embedded(data),

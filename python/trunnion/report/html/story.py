@@ -1,20 +1,24 @@
 """The convergence story of each support: what it did in every iteration, and in words why."""
 
+from collections import Counter
 from math import atan2, degrees
 
 import numpy as np
 from numpy.typing import NDArray
 
-from trunnion.arrays import F8, OPEN, CaseResult, Results, System
+from trunnion.arrays import F8, OPEN, SLIP, STICK, CaseResult, Results, System
 from trunnion.certificate import LIMIT
 from trunnion.frozen import frozen
 from trunnion.report.balance import Balance, balance
+from trunnion.report.causes import told_cause
+from trunnion.report.counts import counted
 from trunnion.report.units import ReportUnits
-from trunnion.results.supports import STATES, cause_of, is_good
+from trunnion.results.supports import STATES, is_good
 
 SUPPORTS = 40  # told of one case, the most restless
 ROWS = 200  # iterations of one support
 TURNS = 3  # returns to the state before the last, from which a support goes to and fro
+MOSTLY = 0.8  # of the common changes: states that two supports take at once
 SHARE = 0.05  # of the normal force: a smaller exchange explains nothing
 
 
@@ -69,16 +73,18 @@ def _story(case: CaseResult, units: ReportUnits) -> dict[str, object]:
     found = course(case)
     changes = {i: _changes(found.level[:, i]) for i in range(found.level.shape[1])}
     restless = sorted((i for i in changes if changes[i]), key=lambda i: (-len(changes[i]), i))
-    note = f"{len(restless)} of {len(case.system.cards)} supports changed state"
+    note = f"{len(restless)} of {counted(len(case.system.cards), 'support')} changed state"
     if kept < len(case.history):
-        note += f"; supports are told of the first {kept} of {len(case.history)} iterations"
+        note += (
+            f"; supports are told of the first {kept} of {counted(len(case.history), 'iteration')}"
+        )
     if len(restless) > SUPPORTS:
         note += f"; the {SUPPORTS} that did so most often are told"
     return {
         "case": case.name,
         "note": note,
         "force": units.force.unit,
-        **_verdict(case),
+        **_verdict(case, units),
         **_passes(case, balance(case), units),
         "supports": [
             {
@@ -92,10 +98,10 @@ def _story(case: CaseResult, units: ReportUnits) -> dict[str, object]:
     }
 
 
-def _verdict(case: CaseResult) -> dict[str, object]:
+def _verdict(case: CaseResult, units: ReportUnits) -> dict[str, object]:
     """Say whether the case converged: the worst item of its certificate and what is allowed."""
     good, found = is_good(case), case.certificate
-    text = f"NOT CONVERGED: {cause_of(case)}"
+    text = f"NOT CONVERGED: {told_cause(case, units)}"
     if good and found is not None:
         text = f"Converged and certified: worst item {found.worst:.1e} ({found.where}), "
         text += f"allowed {LIMIT:.1e}."
@@ -169,7 +175,7 @@ def words(
     text = text[0].upper() + text[1:]
     if not _to_and_fro(found, own, card):
         return text
-    text += " It went to and fro."
+    text += f" It went to and fro{_because(level, own)}."
     partner = _partner(found, changes, card)
     if partner is not None:
         return f"{text} {_shared(system, found, own, card, partner, units)}"
@@ -184,6 +190,17 @@ def _to_and_fro(found: Course, own: list[int], card: int) -> bool:
     states = [int(found.level[0, card]), *found.level[own, card].tolist()]
     returns = [a for a, b in zip(states, states[2:], strict=False) if a == b]
     return len(returns) >= TURNS
+
+
+def _because(level: NDArray[np.int8], own: list[int]) -> str:
+    """Say what the two states between which a support went mean: why it left each again."""
+    lift = sum((level[i] == OPEN) != (level[i - 1] == OPEN) for i in own)
+    rub = sum({int(level[i]), int(level[i - 1])} == {STICK, SLIP} for i in own)
+    if 2 * lift > len(own):
+        return ": held there, the pipe comes off again; let go, it moves past its stop"
+    if 2 * rub > len(own):
+        return ": stuck, it needs more friction than mu N; sliding, less"
+    return ""
 
 
 def _partner(found: Course, changes: dict[int, list[int]], card: int) -> int | None:
@@ -211,17 +228,36 @@ def _shared(
     at = np.array(own)
     mine, other = (found.normal[at, i] - found.normal[at - 1, i] for i in (card, partner))
     name, q = system.cards[partner].name, units.force
-    text = f"This one and {name} change in the same iterations"
+    text = f"This one and {name} mostly change in the same iterations"
     floor = SHARE * np.array([found.normal[:, i].max() for i in (card, partner)])
     exchange = (mine * other < 0.0) & (np.abs(mine) > floor[0]) & (np.abs(other) > floor[1])
     if 2 * exchange.sum() <= len(own):
-        return f"{text}."
+        return f"{text}{_together(found, own, card, partner)}."
     most = [float(np.abs(x[exchange]).max()) for x in (mine, other)]
     shown = " and ".join(q.showing(x).text(x) for x in most)
     return (
         f"{text}: these two alternate because they share a load, and what the normal force of one "
         f"loses the other takes (up to {shown} {q.unit})."
     )
+
+
+def _together(found: Course, own: list[int], card: int, partner: int) -> str:
+    """Say which states two supports take at once, where that is so in `MOSTLY` of the changes."""
+    both = Counter(
+        (int(found.level[i, card]), int(found.level[i, partner]))
+        for i in own
+        if found.level[i, partner] != found.level[i - 1, partner]
+    )
+    (first, n), *rest = both.most_common(2)
+    if not rest or first[0] == rest[0][0][0] or first[1] == rest[0][0][1]:
+        return ""
+    second, m = rest[0]
+    if n + m < MOSTLY * both.total() or m < 2:
+        return ""
+    states = [(STATES[a], STATES[b]) for a, b in (first, second)]
+    if all(a == b for a, b in states):
+        return f": both {states[0][0]}, or both {states[1][0]}"
+    return ": " + " and ".join(f"{a} while that one is {b}" for a, b in states)
 
 
 def _plain(value: object) -> object:

@@ -2,6 +2,8 @@
 /* Tables that sort and filter, and the story of every case.  All text enters as text. */
 (function () {
   const SHOWN = 300, PRINTED = 3000;
+  /* tables by element fill pages that few read: printed where they are asked for */
+  const LONG = ["forces", "stresses", "cycle_forces", "spread_forces"];
   const make = (tag, text, kind) => {
     const found = document.createElement(tag);
     if (text !== undefined && text !== null) found.textContent = text;
@@ -50,6 +52,7 @@
     wide.append(sheet);
     if (n > 8) section.append(bar);
     section.append(wide);
+    if (columns.length <= 8 && n > 20) section.classList.add("halves");
     host.append(section);
 
     function sort() {
@@ -134,10 +137,25 @@
     tabs.append(button);
   });
   choose(0);
+  const long = DATA.tables.filter((table) => LONG.includes(table.name));
+  const every = make("input"), label = make("label", null, "tick");
+  every.type = "checkbox";
+  every.id = "every";
+  every.checked = location.hash === "#every";
+  label.append(every, " print every table");
+  if (long.length) tabs.append(label);
+  const names = long.map((table) => table.title).join(", ");
+  const unprinted = make("p", null, "unprinted");
+  unprinted.textContent = "Not printed: " + names + ". They are in this page as a file, and are " +
+    "printed where \u201cprint every table\u201d is ticked there.";
+  host.append(unprinted);
   let chosen = null;
   window.addEventListener("beforeprint", () => {
     chosen = sections.map((section) => section.hidden);
-    sections.forEach((section) => { section.hidden = false; });
+    sections.forEach((section, i) => {
+      section.hidden = !every.checked && long.includes(DATA.tables[i]);
+    });
+    unprinted.hidden = every.checked || !long.length;
   });
   window.addEventListener("afterprint", () => sections.forEach((section, i) => {
     section.hidden = chosen[i];
@@ -145,7 +163,8 @@
 
   const told = document.getElementById("stories");
   for (const story of DATA.stories) {
-    told.append(make("h3", story.case + ": " + story.passes.length + " iterations"),
+    told.append(make("h3", story.case + ": " + story.passes.length + " iteration" +
+      (story.passes.length === 1 ? "" : "s")),
       make("p", story.note + ".", "note"),
       make("p", story.verdict, "verdict " + (story.good ? "good" : "bad")));
     const residuals = story.passes.map((p) => p.residual);
@@ -182,6 +201,8 @@
             Math.max(...story.passes.map((p) => p.n_changed)) / 5)) } },
       { displayModeBar: false, responsive: true });
     }
+    const course = make("div", null, "course");
+    told.append(course);
     for (const support of story.supports) {
       const block = make("details"), line = make("summary");
       line.append(make("b", support.name), support.words);
@@ -203,7 +224,7 @@
         }
         block.append(table);
       });
-      told.append(block);
+      course.append(block);
     }
   }
   document.body.dataset.ready = "yes";

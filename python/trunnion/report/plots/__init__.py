@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 
 from trunnion.arrays import F8, Results
 from trunnion.model import Comb, Model
+from trunnion.report.counts import counted
 from trunnion.report.plots.answers import answers
 from trunnion.report.plots.convergence import convergence
 from trunnion.report.plots.cycles import cycle_loads
@@ -61,7 +62,7 @@ def figures(results: Results, model: Model, stem: str) -> Iterator[tuple[str, Fi
     if results.modes is not None:
         yield "modes", mode_shapes(one, results.modes, title)
     if results.cases:
-        yield "convergence", convergence(one, results, title)
+        yield "convergence", convergence(one, results, units, title)
 
 
 def has_shape(name: str, results: Results, model: Model) -> bool:
@@ -84,7 +85,7 @@ def caution_of(model: Model) -> str:
     if model.origin is None or not model.origin.left_out:
         return ""
     n = len(model.origin.left_out)
-    return f"LEFT OUT: {n} feature{'s' * (n != 1)} of {model.origin.file}, see the text report"
+    return f"LEFT OUT: {counted(n, 'feature')} of {model.origin.file}, see the text report"
 
 
 def north_of(model: Model) -> F8 | None:

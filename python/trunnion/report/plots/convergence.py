@@ -12,6 +12,8 @@ from trunnion.arrays import F8, CaseResult, Results
 from trunnion.certificate import LIMIT
 from trunnion.frozen import frozen
 from trunnion.report.balance import balance
+from trunnion.report.causes import told_cause
+from trunnion.report.counts import counted
 from trunnion.report.plots.page import (
     EDGE,
     FOOT,
@@ -26,7 +28,8 @@ from trunnion.report.plots.page import (
 )  # fmt: skip
 from trunnion.report.plots.palette import GREY, INK, PALE, STATES
 from trunnion.report.plots.scene import Subject
-from trunnion.results.supports import cause_of, is_good
+from trunnion.report.units import ReportUnits
+from trunnion.results.supports import is_good
 
 PANELS = 9  # cases drawn on their own
 PANEL = 2.55  # height of a row of panels [in]
@@ -71,7 +74,7 @@ def phase_of(what: str) -> str:
     return next((key for key in PHASES if what.startswith(key)), what)
 
 
-def convergence(found: Subject, results: Results, title: str) -> Figure:
+def convergence(found: Subject, results: Results, units: ReportUnits, title: str) -> Figure:
     """Draw a panel a case that was iterated, and the certificates of all."""
     cases = list(results.cases.values())
     iterated = [case for case in cases if case.history]
@@ -84,7 +87,7 @@ def convergence(found: Subject, results: Results, title: str) -> Figure:
     top = height - TOP
     if chosen:
         top = _panels(figure, chosen, top)
-    _certificates(figure, listed, len(cases), top - 0.05, below)
+    _certificates(figure, listed, len(cases), units, top - 0.05, below)
     return figure
 
 
@@ -105,7 +108,7 @@ def _headline(
     cases: Sequence[CaseResult], iterated: Sequence[CaseResult], chosen: Sequence[CaseResult]
 ) -> str:
     bad = [case.name for case in cases if not is_good(case)]
-    text = f"Convergence: {len(iterated)} of {len(cases)} cases were iterated"
+    text = f"Convergence: {len(iterated)} of {counted(len(cases), 'case')} iterated"
     if len(chosen) < len(iterated):
         text += f", the {len(chosen)} of most iterations are drawn"
     return text + (f"; NOT CONVERGED: {', '.join(bad)}" if bad else "; all cases are certified")
@@ -155,7 +158,7 @@ def _panel(axes: Axes, one: Story, limits: tuple[float, float]) -> None:
         axes.plot(n[at], shown[at], mark, color=colour, ms=small, mew=0, zorder=3, gid=phase)
     axes.axhline(LIMIT, color=GREY, lw=0.9, ls="--", zorder=2, gid="limit")
     good, found = is_good(one.case), one.case.certificate
-    name = fitted(f"{one.case.name}: {len(n)} iterations", 150.0, NORMAL, bold=True)
+    name = fitted(f"{one.case.name}: {counted(len(n), 'iteration')}", 150.0, NORMAL, bold=True)
     axes.set_title(name, loc="left", fontsize=NORMAL, fontweight="bold", pad=5)
     if good and found is not None:
         end = len(n) + max(1.0, 0.03 * len(n))
@@ -217,7 +220,12 @@ def _phases(figure: Figure, used: Sequence[str], y: float) -> None:
 
 
 def _certificates(
-    figure: Figure, cases: Sequence[CaseResult], total: int, top: float, height: float
+    figure: Figure,
+    cases: Sequence[CaseResult],
+    total: int,
+    units: ReportUnits,
+    top: float,
+    height: float,
 ) -> None:
     """Draw every item of every certificate as a dot in the row of its case."""
     left = EDGE + 1.5
@@ -229,7 +237,7 @@ def _certificates(
         axes.axhline(i, color="#eef1f4", lw=0.8, zorder=0)
         found = case.certificate
         if not is_good(case) or found is None:
-            text = fitted(f"NOT CONVERGED: {cause_of(case)}", 72.0 * WORST - 12.0, SMALL)
+            text = fitted(f"NOT CONVERGED: {told_cause(case, units)}", 72.0 * WORST - 12.0, SMALL)
             axes.text(
                 1.015, i, text, transform=axes.get_yaxis_transform(), fontsize=SMALL,
                 va="center", color=STATES["slip"].colour,

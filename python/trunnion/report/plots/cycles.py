@@ -74,7 +74,7 @@ def _alike(a: F8, b: F8, least: float) -> bool:
 
 def cycle_loads(found: Subject, cycle: CycleResult, units: ReportUnits, title: str) -> Figure:
     """Draw the loads on restraints of widest range against the steps of a cycle."""
-    what = f"CYCLE {cycle.name} = {', '.join(cycle.cases)}:  {verdict(cycle)}"
+    what = f"CYCLE {cycle.name} = {', '.join(cycle.cases)}:  {verdict(cycle, units)}"
     note = found.noted("loads are those of the pipe ON THE RESTRAINT")
     figure = page(title, what, note, height=HEIGHT)
     courses, q = traces(cycle), units.force

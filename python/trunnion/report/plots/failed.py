@@ -6,6 +6,8 @@ from textwrap import wrap
 from matplotlib.figure import Figure
 
 from trunnion.arrays import CaseResult
+from trunnion.report.causes import told_cause
+from trunnion.report.counts import counted
 from trunnion.report.plots import legend
 from trunnion.report.plots.drawing import length_bar, triad
 from trunnion.report.plots.glyphs import glyphs, stand
@@ -14,7 +16,7 @@ from trunnion.report.plots.palette import NO_STATE, STATES
 from trunnion.report.plots.pipe import plain_faces
 from trunnion.report.plots.scene import Subject, draw_model, frame_of, label_nodes, occupied
 from trunnion.report.units import ReportUnits
-from trunnion.results.supports import card_nodes, cause_of
+from trunnion.results.supports import card_nodes
 
 PANEL = 3.3
 PLACE = EDGE, FOOT, WIDTH - 2 * EDGE - PANEL - 0.2, HEIGHT - TOP - FOOT
@@ -49,10 +51,10 @@ def failed(found: Subject, case: CaseResult, units: ReportUnits, title: str) -> 
     put(
         figure, x, y, "NOT CONVERGED", size=LARGE, colour=STATES["slip"].colour, bold=True, top=True
     )
-    y = legend.lines(figure, x, y - 0.35, PANEL, wrap(cause_of(case), COLUMNS)[:8]) - 0.15
+    y = legend.lines(figure, x, y - 0.35, PANEL, wrap(told_cause(case, units), COLUMNS)[:8]) - 0.15
     if restless:
         y = legend.heading(figure, x, y, f"CHANGED STATE IN THE LAST {LAST} ITERATIONS")
-        rows = [f"{name}: {n} times" for name, n in restless.most_common(NAMED)]
+        rows = [f"{name}: {counted(n, 'time')}" for name, n in restless.most_common(NAMED)]
         more = [f"and {len(restless) - NAMED} more"] if len(restless) > NAMED else []
         legend.lines(figure, x, y, PANEL, rows + more)
     return figure

@@ -4,6 +4,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from trunnion.arrays import F8
+from trunnion.report.counts import counted
 from trunnion.report.plots import legend
 from trunnion.report.plots.drawing import Frame, length_bar, triad
 from trunnion.report.plots.glyphs import glyphs, stand
@@ -29,9 +30,8 @@ LINKED = 1e-9  # m: nodes at one place need no line between them
 def isometric(found: Subject, units: ReportUnits, title: str) -> Figure:
     """Draw the model with its supports."""
     system, course = found.system, found.course
-    count = (
-        f"{len(system.labels)} nodes, {len(system.kind)} elements, {len(system.cards)} restraints"
-    )
+    sizes = ((system.labels, "node"), (system.kind, "element"), (system.cards, "restraint"))
+    count = ", ".join(counted(len(items), what) for items, what in sizes)
     figure = page(title, f"Isometric with supports: {count}", found.noted(NOTE))
     frame = frame_of(figure, PLACE, found)
     standing = stand(system, frame, course)
@@ -53,7 +53,7 @@ def isometric(found: Subject, units: ReportUnits, title: str) -> Figure:
         y = legend.lines(figure, x, y, PANEL, ["no restraints"]) - 0.1
     y = _facts(figure, x, y, found, units)
     if labelled < len(system.labels):
-        text = f"{labelled} of {len(system.labels)} nodes have room for a label"
+        text = f"{labelled} of {counted(len(system.labels), 'node')} have room for a label"
         legend.lines(figure, x, y - 0.1, PANEL, [text])
     return figure
 

@@ -7,6 +7,7 @@ from matplotlib import colormaps
 from matplotlib.figure import Figure
 
 from trunnion.arrays import F8, SPRING, ModeSet
+from trunnion.report.counts import counted
 from trunnion.report.plots.convergence import across
 from trunnion.report.plots.drawing import lone_triad
 from trunnion.report.plots.page import EDGE, FOOT, NORMAL, SMALL, TOP, WIDTH, page, put
@@ -55,7 +56,8 @@ def mode_shapes(found: Subject, modes: ModeSet, title: str) -> Figure:
 def _note(modes: ModeSet) -> str:
     text = "grey: at rest; dark: moves most"
     if modes.rigid:
-        text += f"; {modes.rigid} modes of 0 Hz: the structure, or a part of it, moves freely"
+        rigid = counted(modes.rigid, "mode")
+        text += f"; {rigid} of 0 Hz: the structure, or a part of it, moves freely"
     return text
 
 

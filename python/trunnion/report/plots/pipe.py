@@ -84,7 +84,7 @@ def paint_pipes(
     if not len(parts):
         return
     half = half_widths(frame, found.radius)
-    normal = _normals(flat, parts)
+    normal = _normals(flat, parts, _joins(system, found.lines))
     outline = OUTLINE * frame.scale
     shade = np.tile(to_rgba(rim), (len(parts), 1))
     middle = 0.5 * (depth[parts] + depth[parts + 1])
@@ -113,14 +113,46 @@ def plain_faces(system: System, found: Course, pipe: str = PIPE, body: str = BOD
     return own
 
 
-def _normals(flat: F8, parts: Index) -> F8:
-    """(n, 2) unit normals on paper, halfway between the parts that meet at a point."""
+def _leaving(system: System) -> tuple[F8, Index]:
+    """(n_node, 3) sum of the unit tangents that leave each node; (n_node,) how many do."""
+    out = end_axes(system)[:, :, 0] * np.array([1.0, -1.0])[:, None]
+    total, count = np.zeros((len(system.labels), 3)), np.zeros(len(system.labels), np.intp)
+    np.add.at(total, system.ends.ravel(), out.reshape(-1, 3))
+    np.add.at(count, system.ends.ravel(), 1)
+    return total, count
+
+
+def _joins(system: System, lines: Lines) -> Index:
+    """(n, 2, 2) pairs of line ends that go straight on at a node: point, and +1 where it begins.
+
+    Ends of a line that begins at a node are +1, of one that ends there -1.
+    """
+    total, count = _leaving(system)
+    on = (count == 2) & (np.linalg.norm(total, axis=1) <= STRAIGHT_ON)
+    node = system.ends.ravel()
+    order = np.argsort(node, kind="stable")
+    order = order[on[node[order]]].reshape(-1, 2)
+    points = np.stack([lines.first[:-1], lines.first[1:] - 1], axis=1).ravel()
+    signs = np.tile([1, -1], len(system.ends))
+    return np.stack([points[order], signs[order]], axis=2)
+
+
+def _normals(flat: F8, parts: Index, joins: Index) -> F8:
+    """(n, 2) unit normals on paper, halfway between the parts that meet at a point.
+
+    Where one line goes on in another both have the normal between them, or a slit would show.
+    """
     step = flat[parts + 1] - flat[parts]
     length = np.linalg.norm(step, axis=1, keepdims=True)
     step = np.divide(step, length, out=np.zeros_like(step), where=length > 0.0)
     tangent = np.zeros_like(flat)
     np.add.at(tangent, parts, step)
     np.add.at(tangent, parts + 1, step)
+    point, sign = joins[..., 0], joins[..., 1]
+    away = tangent[point] * sign[..., None]
+    along = away[:, 0] - away[:, 1]
+    tangent[point[:, 0]] = along * sign[:, :1]
+    tangent[point[:, 1]] = -along * sign[:, 1:]
     size = np.linalg.norm(tangent, axis=1, keepdims=True)
     tangent = np.divide(tangent, size, out=np.zeros_like(tangent), where=size > 1e-12)
     normal: F8 = np.stack([-tangent[:, 1], tangent[:, 0]], axis=1)
@@ -152,10 +184,7 @@ def _corners(
     lines, n_elem = found.lines, len(system.kind)
     ends = np.stack([lines.first[:-1], lines.first[1:] - 1], axis=1)
     part = np.stack([lines.first[:-1], lines.first[1:] - 2], axis=1) - np.arange(n_elem)[:, None]
-    out = end_axes(system)[:, :, 0] * np.array([1.0, -1.0])[:, None]
-    total, count = np.zeros((len(system.labels), 3)), np.zeros(len(system.labels), int)
-    np.add.at(total, system.ends.ravel(), out.reshape(-1, 3))
-    np.add.at(count, system.ends.ravel(), 1)
+    total, count = _leaving(system)
     bent = (count > 2) | ((count == 2) & (np.linalg.norm(total, axis=1) > STRAIGHT_ON))
     flat, depth = frame.flat(at), frame.view.depth(at)
     on_end = np.linalg.norm(flat[ends[:, 1]] - flat[ends[:, 0]], axis=1) < 0.5 * frame.scale
