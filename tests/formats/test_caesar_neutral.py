@@ -10,7 +10,7 @@ from dataclasses import replace
 
 import pytest
 from cii import ENGLISH, ENGLISH_LABELS, Cii
-from cii_jobs import ANC, GUI, LIM, RESTING, VERSIONS, Y, everything, job, slot
+from cii_jobs import ANC, GUI, LIM, RESTING, VERSIONS, Y, crowded, everything, job, slot
 
 import trunnion
 from trunnion.deck.reader import read_text
@@ -19,6 +19,7 @@ from trunnion.formats import Findings
 from trunnion.formats.caesar import read
 from trunnion.formats.source import source_of
 from trunnion.model import Direction, HangerDesign, Joint, Operation, Uniform
+from trunnion.system.geometry import place
 
 
 def imported(cii, *, permissive=False, file="line.cii"):
@@ -146,6 +147,22 @@ def test_all_versions_of_one_job_give_one_model():
     assert unnamed == ["20", "50"]
     assert [s.directions for s in old.supports] == [s.directions for s in mid.supports]
     assert [replace(p, body="") for p in mid.pipes] == old.pipes
+
+
+@pytest.mark.parametrize("made", [everything, crowded])
+def test_versions_between_give_the_models_of_those_that_were_seen(made):
+    def model(version):
+        read_ = model_of(made(version), permissive=True)
+        return replace(read_, origin=None)
+
+    assert model(7.0) == model(7.01)
+    for version in (8.1, 9.0, 9.1, 10.0):
+        assert model(version) == model(11.0)
+    unlike = {"materials": {}}  # ASME II-D from 12 on
+    for version in (12.0, 13.0):
+        assert replace(model(version), **unlike) == replace(model(11.0), **unlike)
+    for version in (14.0, 15.0):
+        assert model(version) == model(15.01)
 
 
 def test_comments_say_what_came_from_where():
@@ -438,6 +455,32 @@ def test_a_rigid_at_a_bend_gets_a_pipe_for_its_tangent():
     assert rigid.delta == pytest.approx((0.0, 0.0, 0.5))
 
 
+@pytest.mark.parametrize("version", [11.0, 15.01])
+def test_a_node_at_any_angle_of_a_bend_cuts_its_arc_and_changes_nothing_else(version):
+    def line(angle):
+        c = job(version)
+        nodes = ((0.0, 18), (angle, 19), (-2.0202, 17))
+        bend = {"radius": 381.0, "nodes": nodes, "flanges": 1}
+        c.add(10, 20, dx=2000.0, RESTRANT=[slot(10, ANC), slot(19, 3, k=1e-3)], BEND=bend)
+        c.add(20, 30, dz=2000.0, RESTRANT=[slot(30, ANC)])
+        return model_of(c)
+
+    model = line(30.0)
+    assert [(p.start, p.end) for p in model.pipes] == [("10", "31"), ("31", "20"), ("20", "30")]
+    assert [(b.node, b.radius) for b in model.bends] == [("31", 0.381), ("20", 0.381)]
+    assert model.bends[0].k == model.bends[1].k
+    assert model.supports[1].node == "31F"
+    points = place(model, []).points
+    middle = (2.0 - 0.381 + 0.381 * math.sin(math.pi / 6), 0.0, 0.381 * (1 - math.cos(math.pi / 6)))
+    assert points["31F"] == pytest.approx(middle, abs=1e-9)
+    assert points["31N"] == pytest.approx((1.619, 0.0, 0.0), abs=1e-9)
+    assert points["20F"] == pytest.approx((2.0, 0.0, 0.381), abs=1e-9)
+    cut, whole = (trunnion.solve(m) for m in (model, line(45.0)))
+    for case in ("SUS", "OPE1"):
+        loads, others = (r[case].supports.values[[0, -1], :6] for r in (cut, whole))
+        assert loads == pytest.approx(others, rel=1e-6, abs=1e-6 * abs(others).max())
+
+
 def after_a_bend(**body):
     c = job()
     c.add(10, 20, dx=2000.0, RESTRANT=[slot(10, ANC)], BEND={"radius": 381.0})
@@ -565,8 +608,17 @@ def test_an_unknown_material_is_named_once():
     for n in range(3):
         c.add(10 + n, 11 + n, dx=1000.0, material=777, RESTRANT=[slot(10, ANC)] if not n else [])
     (problem,) = problems_of(c)
-    assert "element 10-11: material 777 is not known; taken as carbon steel" in problem
+    said = "element 10-11: material 777 is not known, and its expansion not in the file; taken as"
+    assert said in problem
     assert len(imported(c, permissive=True).left_out) == 1
+
+
+@pytest.mark.parametrize(("e", "said"), [(203400.0, False), (0.0, True)])
+def test_an_unknown_material_that_stays_cold_needs_its_constants_alone(e, said):
+    c = job()
+    cold = {"t1": 0.0, "t2": 21.5}
+    c.add(10, 20, dx=1000.0, material=777, e=e, **cold, RESTRANT=[slot(10, ANC)])
+    assert bool(imported(c, permissive=True).left_out) == said
 
 
 def test_lining_and_cladding_are_weights():
@@ -673,6 +725,33 @@ def test_hangers_to_be_designed_and_several_at_one_place(version):
     wanted = HangerDesign(0.25, 0.0, None, 1, "HOT", table="ANVIL", free="10", free2="30")
     assert hangers[0].design == wanted
     assert (hangers[1].k, hangers[1].load, hangers[1].design) == (2e4, 8000.0, None)
+
+
+def test_a_hanger_that_nothing_moves_is_named_and_a_load_without_rate_is_constant():
+    c = job()
+    c.add(10, 20, dx=6000.0, t1=0.0, t2=0.0, RESTRANT=[slot(10, ANC)])
+    c.hangers = [{"node": 20}]
+    assert "node 20: hanger to be designed in a job without" in " ".join(problems_of(c))
+    (rest,) = (s for s in model_of(c, permissive=True).supports if s.node == "20")
+    assert [d.word for d in rest.directions] == ["+Y"]
+    c.hangers = [{"node": 20, "cold": 5000.0}]
+    result = imported(c)
+    assert any("it is a constant support" in a.text for a in result.assumed)
+    assert [s.k for s in result.model.supports if s.kind == "hanger"] == [0.0]
+
+
+def test_hangers_without_tags_are_read_below_elements_with_names():
+    """Widths may mix between version 7 and 11: the lines that are there decide."""
+    c = job(11.0)
+    c.add(10, 20, dx=6000.0, RESTRANT=[slot(10, ANC)])
+    c.hangers = [{"node": n, "k": 100.0, "cold": 4000.0 + n} for n in (10, 20)]
+    lines = c.text().split("\r\n")
+    start = next(i for i, x in enumerate(lines) if x.startswith("#$ MISCEL_1"))
+    tags = [i for i in range(start, len(lines)) if lines[i] == c.string("")]
+    assert len(tags) == 4
+    short = [x for i, x in enumerate(lines) if i not in tags]
+    hangers = [s for s in model_of("\r\n".join(short)).supports if s.kind == "hanger"]
+    assert [(s.node, s.k, s.load) for s in hangers] == [("10", 1e4, 4010.0), ("20", 1e4, 4020.0)]
 
 
 def test_the_load_and_the_space_that_a_user_gives_a_hanger_are_named():

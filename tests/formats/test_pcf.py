@@ -154,6 +154,15 @@ def test_a_spring_is_a_hanger_to_be_designed(load):
     assert (given.load, given.k, given.design) == (5000.0, 50e3, None)
 
 
+def test_a_spring_without_a_temperature_is_named_and_taken_as_a_rest(load):
+    table = TABLE.replace('T1 = "150C"\n', "")
+    text = STRAIGHT + support((1000, 0, 0), "SPRG", "UP")
+    with pytest.raises(DeckError, match="a spring to be selected, and no temperature: give T1"):
+        load(text, table)
+    (rest,) = load(text, table, permissive=True).model.supports
+    assert [d.word for d in rest.directions] == ["+Z"]
+
+
 def test_flanges_and_valves_keep_their_names(whole):
     bodies = {(p.start, p.end): p.body for p in whole.model.pipes if p.rigid and p.weight}
     assert bodies["100", "110"] == bodies["380", "390"] == "FLANGE"
@@ -590,6 +599,15 @@ def test_a_csv_table_gives_walls_by_spec_item_and_bore(load):
     text = HEADER + pipe((0, 0, 0), (1000, 0, 0)) + pipe((1000, 0, 0), (2000, 0, 0), ITEM_CODE="P9")
     sections = load(text, table, suffix=".csv").model.sections
     assert sorted(s.wall for s in sections.values()) == [0.0065, 0.009]
+
+
+def test_components_without_the_temperature_of_others_are_named(load):
+    text = STRAIGHT + "PIPELINE-REFERENCE LINE-B\n    PIPING-SPEC CS2\n"
+    text += pipe((3000, 0, 0), (4000, 0, 0))
+    table = '[defaults]\nMATERIAL = "A106-B"\nSCH = "40"\n[[rule]]\nspec = "CS2"\nT1 = "200C"\n'
+    imported = load(text, table)
+    assert "T1 of PIPE of line 10 and of 1 more is not given: they stay cold" in assumed(imported)
+    assert [p.operation.t["1"] for p in imported.model.pipes] == [20.0, 20.0, 200.0]
 
 
 def test_attributes_mean_what_the_table_says(load):

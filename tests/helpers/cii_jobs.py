@@ -65,7 +65,13 @@ def crowded(version):
         WIND=(0.0, 0.6, 0.0, 0.0, 0.0, 0.0),
         ALLOWBLS=0,
     )
-    bend = {"radius": 381.0, "nodes": ((-2.0202, 29), (0.0, 28)), "flanges": 2, "fitting": 12.7}
+    bend = {
+        "radius": 381.0,
+        "nodes": ((-2.0202, 29), (0.0, 28)),
+        "flanges": 2,
+        "fitting": 12.7,
+        "miters": 3,
+    }
     c.add(20, 30, dx=3000.0, BEND=bend, OFFSETS=(0.0, 150.0, 0.0, 0.0, 0.0, 0.0))
     c.add(30, 40, dz=1500.0, RIGID=(2100.0, 1), NODENAME=("", "VALVE"))
     c.add(40, 50, dz=800.0, REDUCERS=(219.1, 8.18, 10.0), OFFSETS=(0.0, 0.0, 0.0, 0.0, 80.0, 0.0))
@@ -75,9 +81,14 @@ def crowded(version):
     c.add(60, 70, **small, EXPJT=(2e3, 0.0, 50.0, 0.0, 0.0))
     gapped = slot(80, RESTING, cosines=Y, cnode=180, gap=2.0, mu=0.3)
     column = slot(180, 3, k=1e4, cosines=Y)
-    c.add(70, 80, dz=2000.0, **small, RESTRANT=[gapped, column], SIF=(80, 3))
-    c.add(80, 90, dz=2000.0, **small, BEND={"radius": 305.0, "miters": 2}, material=18)
-    stops = [slot(90, 25, gap=3.0, cosines=(1, 0, 0)), slot(90, 11, cosines=Y), slot(89, GUI)]
+    c.add(70, 80, dz=2000.0, **small, RESTRANT=[gapped, column], SIF=(80, 3), material=18)
+    c.add(80, 90, dz=2000.0, **small, BEND={"radius": 305.0, "nodes": ((30.0, 88),)})
+    stops = [
+        slot(88, RESTING, cosines=Y),
+        slot(90, 25, gap=3.0, cosines=(1, 0, 0)),
+        slot(90, 11, cosines=Y),
+        slot(89, GUI),
+    ]
     c.add(90, 100, dy=-1500.0, **small, RESTRANT=stops, t1=0.002, t2=0.0)
     moved = {1: (1.5, -3.0, None, None, None, 0.5), 9: (0.0, 1.0, None, None, None, None)}
     c.add(100, 110, dy=-1000.0, **small, DISPLMNT=[(110, moved), (180, {1: (0.0,) * 6})])

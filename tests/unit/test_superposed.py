@@ -71,8 +71,9 @@ def test_a_sum_is_the_answer(seed):
         assert np.allclose(alone.penalty_u, found.penalty_u, rtol=1e-6, atol=1e-12)
         assert np.allclose(alone.penalty_r, found.penalty_r, rtol=1e-6, atol=1e-5)
         assert alone.penalty_effect == pytest.approx(found.penalty_effect, rel=1e-6, abs=1e-12)
-        # at most what the last correction says, of which a sum knows a bound
-        assert 12.0 <= found.digits[0] <= alone.digits[0] + 2.0
+        # a sum knows a bound of its last correction, an answer stops at one below 1e-13, which may
+        # be three digits above the rounding that its own sets stopped at
+        assert 12.0 <= found.digits[0] <= alone.digits[0] + 3.0
         assert alone.warnings == found.warnings
     assert any(is_sum(case) for case in together.cases.values())
 

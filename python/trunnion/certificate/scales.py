@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from trunnion.arrays import F8, Loads, State, System
+from trunnion.certificate.deformation import columns
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,15 +40,17 @@ def measure(system: System, loads: Loads, state: State) -> Scale:
     turning = system.contacts.rotational
     some = bool(turning.any())
     push = state.reaction[~turning] if some else state.reaction
-    load = loads.dist * system.length[:, None]
+    load = columns(loads.dist) * system.length
+    nodal, end = columns(loads.nodal), columns(state.end_force.reshape(-1, 6))
     moment = largest(state.reaction[turning]) if some else 0.0
-    moment = max(moment, largest(loads.nodal[:, 3:], state.end_force[:, :, 3:]))
-    stiff = system.rigidity[:, 0]
+    moment = max(moment, largest(nodal[3:], end[3:]))
+    stiff = system.rigidity[:, 0].copy()
     held = float(stiff.min(where=stiff > 0.0, initial=1e12)) * largest(loads.strain)
-    kin = max(1e-4 * largest(state.end_force[:, :, :3]), 1e-4 * moment, 1e-6 * held)
-    force = largest(push, state.friction, load, loads.nodal[:, :3])
+    kin = max(1e-4 * largest(end[:3]), 1e-4 * moment, 1e-6 * held)
+    force = largest(push, state.friction, load, nodal[:3])
     force = floor(_real(force, 1e-6), _real(kin, 1e-6))
-    length, angle = (_real(largest(u), 1e-18) for u in (state.u[:, :3], state.u[:, 3:]))
+    u = columns(state.u)
+    length, angle = _real(largest(u[:3]), 1e-18), _real(largest(u[3:]), 1e-18)
     return Scale(
         force, max(moment, 0.01 * force), floor(length, 1e-3 * angle), floor(angle, 1e-3 * length)
     )

@@ -35,11 +35,12 @@ def factor_of(bend: BendData, e: Element, corner: Corner, modulus: float, *, b31
         return Factor(bend.k, f"flexibility factor {bend.k:g} as in the file")
     own_wall = bend.fitting_wall > 0.0 and abs(bend.fitting_wall - e.wall) > SAME_WALL * e.wall
     wall = bend.fitting_wall if own_wall else e.wall
+    turn = bend.whole or corner.turn
     r2 = 0.5 * (e.od - e.wall)
     if not (r2 > 0.0 and wall > 0.0):
         return Factor()
     if bend.miters:
-        theta = 0.5 * corner.turn / bend.miters
+        theta = 0.5 * turn / bend.miters
         close = bend.miters > 1 and 2.0 * corner.radius * tan(theta) < r2 * (1.0 + tan(theta))
         h = wall * corner.radius / r2**2 if close else 0.5 * (1.0 + 1.0 / tan(theta)) * wall / r2
         k = 1.52 * h ** (-5.0 / 6.0) * min(1.0, h ** (bend.flanges / 6.0))
@@ -47,7 +48,7 @@ def factor_of(bend: BendData, e: Element, corner: Corner, modulus: float, *, b31
         spaced += "s" if bend.miters > 1 else ""
         text = f"{spaced}: an arc with k = 1.52/h^(5/6), h = {h:.4g}, of ASME B31.3 Table D300"
         return Factor(_digits(k), text)
-    right = b31j and abs(corner.turn - 0.5 * pi) < RIGHT
+    right = b31j and abs(turn - 0.5 * pi) < RIGHT
     if not own_wall and not right:
         return Factor()
     top = 1.3 if right else 1.65

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+from trunnion.formats.caesar.arcs import cut_bends
 from trunnion.formats.caesar.geometry import Labels
 from trunnion.formats.caesar.hangers import Hangers
 from trunnion.formats.caesar.job import BOURDON, Job
@@ -32,7 +33,7 @@ def build(job: Job, findings: Findings, name: str, header: tuple[str, ...] = ())
         units=job.units,
         settings=replace(Settings(), up=job.up, stiffen=stiffen, bourdon=bourdon),
     )
-    job = links_for_offsets(job, findings)
+    job = cut_bends(links_for_offsets(job, findings))
     job, hinges = flexible_tees(job, findings)
     labels = Labels(job, findings)
     pipes = Pipes(job, labels, model, findings)

@@ -1,5 +1,6 @@
 """Labels and bends: which label of the model each node of the job is."""
 
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from functools import cached_property
 from math import acos, degrees, tan
@@ -114,7 +115,7 @@ class Labels:
         if e.end in self.corners:
             self.findings.fault(bend.line, f"{name}: node {e.end} has a bend already")
             return
-        after = self._leaving(i, e.end)
+        after = outgoing(self.job.elements, i, self.at[e.end])
         if after is None:
             text = f"{name}: the bend at {e.end} has no element that leaves it"
             self.findings.fault(bend.line, text)
@@ -125,8 +126,7 @@ class Labels:
             text = "bend on a rigid element; taken as a corner without bend"
             self.findings.leave_out(bend.line, name, text)
             return
-        cosine = _dot(e.delta, out) / (size(e.delta) * size(out)) if size(e.delta) else 1.0
-        turn = acos(min(1.0, max(-1.0, cosine)))
+        turn = turn_of(e.delta, out)
         if turn < STRAIGHT:
             self.findings.assume(
                 f"the bend at {e.end} does not turn: it is straight pipe", bend.line
@@ -137,14 +137,6 @@ class Labels:
             return
         tangent = bend.radius * tan(0.5 * turn)
         self.corners[e.end] = Corner(i, after, turn, tangent, bend.radius)
-
-    def _leaving(self, i: int, node: int) -> int | None:
-        """Element that leaves a bend: the next of the file, else the first other one there."""
-        elements = self.job.elements
-        here = [j for j in self.at[node] if j != i and size(elements[j].delta) > 0.0]
-        if i + 1 in here and elements[i + 1].start == node:
-            return i + 1
-        return next(iter(here), None)
 
     def _use_up(self) -> None:
         """Let tangents that use up an element use it up exactly.
@@ -203,10 +195,37 @@ class Labels:
     @cached_property
     def used(self) -> set[int]:
         """Nodes that anything stands on, or that an element has."""
-        job = self.job
-        used = {r.node for e in job.elements for r in e.restraints}
-        used |= {s.node for e in job.elements for s in (*e.displacements, *e.forces)}
-        return used | {h.node for h in job.hangers} | self.at.keys()
+        return nodes_used(self.job)
+
+
+def nodes_used(job: Job) -> set[int]:
+    """Nodes that anything stands on, or that an element has."""
+    used = {r.node for e in job.elements for r in e.restraints}
+    used |= {s.node for e in job.elements for s in (*e.displacements, *e.forces)}
+    used |= {n for e in job.elements for n in (e.start, e.end)}
+    return used | {h.node for h in job.hangers}
+
+
+def outgoing(elements: Sequence[Element], i: int, here: Iterable[int] | None = None) -> int | None:
+    """Element that leaves the bend of element `i`: the next of the file, else the first other one.
+
+    Parameters
+    ----------
+    here : elements at the node of the bend, if that is known.
+    """
+    node = elements[i].end
+    following = elements[i + 1] if i + 1 < len(elements) else None
+    if following is not None and following.start == node and size(following.delta) > 0.0:
+        return i + 1
+    if here is None:
+        here = (j for j, e in enumerate(elements) if node in (e.start, e.end))
+    return next((j for j in here if j != i and size(elements[j].delta) > 0.0), None)
+
+
+def turn_of(before: Vec, after: Vec) -> float:
+    """Angle by which the pipe turns from one direction to the next [rad]."""
+    cosine = _dot(before, after) / (size(before) * size(after)) if size(before) else 1.0
+    return acos(min(1.0, max(-1.0, cosine)))
 
 
 def size(v: Vec) -> float:

@@ -4,9 +4,9 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from trunnion.formats.caesar.geometry import Labels
-from trunnion.formats.caesar.job import HangerData, Job
+from trunnion.formats.caesar.job import HangerData, Job, Sets
 from trunnion.formats.findings import Findings
-from trunnion.model import HangerDesign, Model, Place, Support
+from trunnion.model import Direction, HangerDesign, Model, Place, Support
 
 ANVIL = (0, 1)  # numbers of hanger tables: the default, which is the maker's of number 1
 
@@ -27,6 +27,8 @@ class Hangers:
         self.model = model
         self.findings = findings
         self.names = names
+        heated = any(x is not None for e in job.elements for x in (*e.t, *e.strain))
+        self.travels = heated or any(_moves(s) for e in job.elements for s in e.displacements)
 
     def add(self, h: HangerData) -> None:
         """Add a spring hanger; one without rate and load waits for its design."""
@@ -43,6 +45,9 @@ class Hangers:
         if not load:
             self._designed(h, label, cnode, n, place)
             return
+        if not (h.rate or h.constant):
+            text = f"the hanger at {h.node} has a load, but no rate: it is a constant support"
+            self.findings.assume(text, h.line)
         rate = 0.0 if h.constant else n * h.rate
         made = Support(label, "hanger", (), cnode, self.names(h.tag), rate, load=load, place=place)
         self.model.supports.append(made)
@@ -57,6 +62,16 @@ class Hangers:
         if h.space:
             text = "springs are selected without regard to the space available for hangers"
             self.findings.assume(text, h.line)
+        if not self.travels:
+            text = (
+                "hanger to be designed in a job without temperatures or movements; taken as a rest"
+            )
+            self.findings.leave_out(h.line, f"node {h.node}", text)
+            rest = (Direction(f"+{self.job.up}"),)
+            made = Support(label, "support", rest, cnode, self.names(h.tag), place=place)
+            self.model.supports.append(made)
+            self.findings.note(made, f"hanger of line {h.line}, that nothing moves")
+            return
         method = "COLD" if h.cold_design else "HOT"
         variation = h.variation / 100.0
         known = h.table in ANVIL
@@ -87,3 +102,8 @@ class Hangers:
                 text = f"the hanger at {h.node} frees more than the vertical of {node}: that alone"
                 self.findings.assume(f"{text} is freed while the weight is balanced", h.line)
         return found
+
+
+def _moves(record: Sets) -> bool:
+    """Tell whether imposed displacements move their node."""
+    return any(any(row) for row in record.values)

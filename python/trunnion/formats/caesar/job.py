@@ -24,6 +24,7 @@ class BendData:
     miters: int = 0
     fitting_wall: float = 0.0
     k: float = 0.0
+    whole: float = 0.0  # turn of the bend that this one is a part of [rad]; 0: it is whole
 
 
 @frozen

@@ -55,15 +55,27 @@ def read_misc(columns: Columns, frame: Skeleton, units: FileUnits) -> Misc:
         at += 4
     hangers: tuple[HangerData, ...] = ()
     if n_hanger:
-        strings = frame.sections["ELEMENTS"].n_line >= 15 * n_elem
-        needed = 2 + -(-n_hanger // 6) * 5 + n_hanger * (5 if strings else 3)
-        if section.last - at + 1 < needed:
+        lists, here = 2 + -(-n_hanger // 6) * 5, section.last - at + 1
+        strings = _has_tags(here - lists, n_hanger, late=_is_late(frame))
+        needed = lists + n_hanger * (5 if strings else 3)
+        if here < needed:
             text = f"MISCEL_1 ends within the data of {n_hanger} hangers"
             columns.findings.fault(section.header, text)
             return Misc(materials, tuple(nozzles))
         hangers = _hangers(columns, at, n_hanger, units, strings=strings)
         at += needed
     return Misc(materials, tuple(nozzles), hangers, _options(columns, section, at, units))
+
+
+def _is_late(frame: Skeleton) -> bool:
+    """Tell whether elements have names, as from version 8 on."""
+    return frame.sections["ELEMENTS"].n_line >= 15 * frame.counts["ELEMENTS"]
+
+
+def _has_tags(n_line: int, n_hanger: int, *, late: bool) -> bool:
+    """Tell whether hangers have a tag and a GUID, two lines: what is left are 3 or 4 of options."""
+    fits = [n_line - n_hanger * each in (3, 4) for each in (3, 5)]
+    return late if fits[0] == fits[1] else fits[1]
 
 
 def _whole(value: float) -> int:
@@ -87,7 +99,7 @@ def _hangers(
     found = []
     for i in range(n):
         line = first + i * step
-        v = columns.many(line, 11 if strings else 10)
+        v = columns.many(line, 11)  # the last one came with the tags
         found.append(
             HangerData(
                 line,
@@ -95,7 +107,7 @@ def _hangers(
                 rate=scaled(v[0], units.kt),
                 cold_load=scaled(v[4], units.force),
                 hot_load=scaled(v[5] or v[6], units.force),  # the second is the user's
-                constant=scaled(v[10], units.force) if strings else 0.0,
+                constant=scaled(v[10], units.force),
                 variation=v[1] or usual[1] or 25.0,
                 rod=max(0.0, scaled(v[2] or usual[2], units.length)),
                 space=scaled(v[3], units.length) if abs(v[3]) < FREE - 0.01 else 0.0,

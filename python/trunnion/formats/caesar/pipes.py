@@ -46,7 +46,7 @@ class Pipes:
             modulus = self.model.materials[self.properties.material(e)].e
             factor = factor_of(bend, e, corner, modulus, b31j=uses_b31j(self.job))
             if factor.text and factor.k != bend.k and "B31J" not in factor.text:
-                text = f"element {e.start}-{e.end}: {factor.text}"
+                text = f"bend at {node}: {factor.text}"
                 self.findings.assume(text, bend.line)
             place = self.findings.place(e.line)
             made = Bend(str(node), corner.radius, k=factor.k, flanges=bend.flanges, place=place)

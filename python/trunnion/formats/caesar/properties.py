@@ -103,8 +103,10 @@ class Properties:
             return name
         if e.material == mt.PLASTIC:
             self._leave_out(e, "material 20: fibre reinforced plastic; taken as isotropic")
-        elif family is None and e.material not in (mt.CUT_SHORT, mt.CUT_LONG):
-            self._leave_out(e, f"material {e.material}{called} is not known; taken as carbon steel")
+        elif family is None and e.material not in (mt.CUT_SHORT, mt.CUT_LONG) and self._lacks(e):
+            lacking = "expansion" if e.e and e.nu and e.density else "constants"
+            text = f"material {e.material}{called} is not known, and its {lacking} not in the file"
+            self._leave_out(e, f"{text}; taken as carbon steel (change MATERIAL in the deck)")
         family = family or mt.FAMILIES[1]
         late = self.job.version >= mt.LATE_VERSION
         made = mt.material_of(name, family, e.e, e.nu, e.density, late=late)
@@ -121,6 +123,12 @@ class Properties:
         source += ", expansion as in the file" if alpha else ""
         self.findings.note(made, f"material {e.material} ({family.name}): {source}")
         return name
+
+    def _lacks(self, e: Element) -> bool:
+        """Tell whether a material that is not known is hot anywhere, or has no constants."""
+        same = [x for x in self.job.elements if x.material == e.material]
+        hot = any(t is not None and abs(t - self.job.ambient) > HOT for x in same for t in x.t)
+        return hot or not (e.e and e.nu and e.density)
 
     def _warn_of_expansion(self, e: Element) -> None:
         """A material without a table of expansion must not be hot."""

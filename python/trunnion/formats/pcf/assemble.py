@@ -7,11 +7,12 @@ from trunnion.formats.findings import Findings
 from trunnion.formats.pcf.attach import Attached
 from trunnion.formats.pcf.bends import merge_tangents, settle
 from trunnion.formats.pcf.network import Network, Run
+from trunnion.formats.pcf.operations import one_operation
 from trunnion.formats.pcf.parts import Part
 from trunnion.formats.pcf.properties import Properties, Resolver
 from trunnion.formats.pcf.walk import Walk, walk
 from trunnion.formats.sidetable import G
-from trunnion.model import Bend, Mass, Model, Node, Operation, Pipe, Reducer
+from trunnion.model import Bend, Mass, Model, Node, Pipe, Reducer
 from trunnion.system.vectors import Vec, cross, dot, scale, size, sub, unit
 
 COLLINEAR = 1e-3  # as system.tangents: pipes that turn by less count as one line [rad]
@@ -75,7 +76,7 @@ def assemble(
     for run in net.runs:
         made.append((run, resolver.properties(run.part, run.ends[0])))
     keep = {node for _, node in masses} | {*net.open_ends, *first}
-    runs, gone = merge_tangents(net, _one_operation(made), keep)
+    runs, gone = merge_tangents(net, one_operation(made, findings), keep)
     radii = settle(net, runs)
     way = walk(net, runs, gone, attached.middles, circles, first)
     _add_pipes(model, net, way, attached, resolver, findings)
@@ -101,24 +102,6 @@ def assemble(
             findings.assume(f"{part.name}: {text}", part.line)
     _index(line, way, gone)
     return line
-
-
-def _one_operation(made: list[tuple[Run, Properties]]) -> list[tuple[Run, Properties]]:
-    """Give all pipes the same sets: a deck carries temperatures over, and cannot blank them."""
-    t = sorted({n for _, p in made for n in p.operation.t})
-    p_sets = sorted({n for _, p in made for n in p.operation.p})
-    known: dict[int, Operation] = {}
-    result = []
-    for run, what in made:
-        old = what.operation
-        if id(old) not in known:
-            known[id(old)] = Operation(
-                {n: old.t.get(n, old.tref) for n in t},
-                {n: old.p.get(n, 0.0) for n in p_sets},
-                old.tref,
-            )
-        result.append((run, Properties(what.section, what.material, known[id(old)])))
-    return result
 
 
 def _add_pipes(

@@ -79,7 +79,12 @@ def _add_at(
     for number, card in enumerate(cards):
         source = [p for p, m in records if m.words == card or m.words in plain_words]
         part = source[0] if source else records[0][0]
-        if card == "SPRING":
+        if card == "SPRING" and not any(pipe.operation.t for pipe in line.model.pipes):
+            text = "a spring to be selected, and no temperature: give T1, or LOAD= and RATE= under "
+            text += "[supports], in the side table; taken as a rest"
+            findings.leave_out(part.line, part.name, text)
+            card = "+Z"
+        elif card == "SPRING":
             text = "springs without rate and load are selected by the program (HANGER DESIGN)"
             findings.assume(text, part.line)
         before = len(line.model.supports)
