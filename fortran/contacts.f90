@@ -7,7 +7,7 @@ module contacts
    implicit none (type, external)
    private
    public :: accumulate, add_tangents, contact_pass, contact_product, coupling_product
-   public :: in_plane, rate, relative
+   public :: gather, in_plane, rate, relative, scatter
 
    ! rows of `at`: where a contact or a slider acts
    integer, parameter, public :: at_node = 1, at_cnode = 2, at_rank = 3, at_offset = 4
@@ -122,21 +122,48 @@ contains
       end do
    end function resultant
 
-   !> Subtract the changing contacts' share of K p from `r`.
-   pure subroutine contact_product(at, tangent, p, r)
+   !> Subtract the contacts' share of K p from `r`; of those that may change, or of the `whole`.
+   pure subroutine contact_product(at, tangent, whole, p, r)
       integer(ip), intent(in) :: at(:, :)
       real(wp), intent(in) :: tangent(:, :, :), p(:, :)
+      logical, intent(in) :: whole
       real(wp), intent(inout) :: r(:, :)
 
       real(wp) :: dw(3)
       integer(ip) :: i
 
       do i = 1_ip, size(at, 2, ip)
-         if (at(at_hold, i) == hold_two_way) cycle
+         if (at(at_hold, i) == hold_two_way .and. .not. whole) cycle
          call rate(at(:, i), p, dw)
          call add_force(at(:, i), -matmul(tangent(:, :, i), dw), r)
       end do
    end subroutine contact_product
+
+   !> Relative displacements of the contacts for displacements p, in plain reals.
+   pure subroutine gather(at, p, w)
+      integer(ip), intent(in) :: at(:, :)
+      real(wp), intent(in) :: p(:, :)
+      real(wp), intent(out) :: w(:, :)
+
+      integer(ip) :: i
+
+      do i = 1_ip, size(at, 2, ip)
+         call rate(at(:, i), p, w(:, i))
+      end do
+   end subroutine gather
+
+   !> Add contact forces to their nodes, and the opposites to their cnodes.
+   pure subroutine scatter(at, force, r)
+      integer(ip), intent(in) :: at(:, :)
+      real(wp), intent(in) :: force(:, :)
+      real(wp), intent(inout) :: r(:, :)
+
+      integer(ip) :: i
+
+      do i = 1_ip, size(at, 2, ip)
+         call add_force(at(:, i), force(:, i), r)
+      end do
+   end subroutine scatter
 
    !> u + low + s p, renormalised.
    pure subroutine accumulate(p, s, u, low)

@@ -138,39 +138,40 @@ contains
       real(wp), intent(out) :: k(6, 6)
       integer(ip), intent(out) :: status
 
-      real(wp) :: l(6, 6), x(6), s(6), a
+      real(wp) :: l(6, 6), x(6, 6), s(6), a
       integer :: i, j
 
       status = status_bad_section
       k(:, :) = 0.0_wp
       l(:, :) = 0.0_wp
+      x(:, :) = 0.0_wp
       do i = 1, 6
          if (.not. f(i, i) > 0.0_wp) return
          s(i) = 1.0_wp/sqrt(f(i, i))
       end do
       do j = 1, 6
          do i = j, 6
-            a = f(i, j)*s(i)*s(j) - dot_product(l(i, 1:j - 1), l(j, 1:j - 1))
+            a = f(i, j)*s(i)*s(j) - dot_product(l(1:j - 1, i), l(1:j - 1, j))
             if (i == j) then
                if (.not. a > 0.0_wp) return
                l(j, j) = sqrt(a)
             else
-               l(i, j) = a/l(j, j)
+               l(j, i) = a/l(j, j)
             end if
          end do
       end do
-      do j = 1, 6
-         x(:) = 0.0_wp
-         x(j) = 1.0_wp
-         do i = 1, 6
-            x(i) = (x(i) - dot_product(l(i, 1:i - 1), x(1:i - 1)))/l(i, i)
+      do j = 1, 6                            ! X = L**-1, column j below its diagonal
+         x(j, j) = 1.0_wp/l(j, j)
+         do i = j + 1, 6
+            x(i, j) = -dot_product(l(j:i - 1, i), x(j:i - 1, j))/l(i, i)
          end do
-         do i = 6, 1, -1
-            x(i) = (x(i) - dot_product(l(i + 1:6, i), x(i + 1:6)))/l(i, i)
-         end do
-         k(:, j) = x*s*s(j)
       end do
-      k = 0.5_wp*(k + transpose(k))
+      do j = 1, 6
+         do i = j, 6
+            k(i, j) = s(i)*s(j)*dot_product(x(i:, i), x(i:, j))
+            k(j, i) = k(i, j)
+         end do
+      end do
       status = status_ok
    end subroutine invert
 

@@ -2,13 +2,13 @@
 module elements
    use assembly, only: add_element
    use element, only: tip_deformation, tip_resultant, tip_stiffness
-   use frame, only: turn_to_global
+   use frame, only: cross, turn_to_global
    use kinds, only: ip, wp
    use recover, only: deformation, end_forces
    use status_codes, only: status_ok
    implicit none (type, external)
    private
-   public :: assemble_elements, element_end_forces, element_loads, element_stiffness
+   public :: add_ends, assemble_elements, element_end_forces, element_loads, element_stiffness
 
 contains
 
@@ -88,5 +88,29 @@ contains
          r(:, b) = r(:, b) - f(:, 2, i)
       end do
    end subroutine element_end_forces
+
+   !> Add a share of every element's end forces to its nodes.
+   !>
+   !> With `bent` also the moment that is left over at end 1 where the vector to end 2 is wrong by
+   !> such a share, another for each component.
+   pure subroutine add_ends(ends, share, d, bent, f, r)
+      integer(ip), intent(in) :: ends(:, :)
+      real(wp), intent(in) :: share(:), d(:, :), f(:, :, :)
+      logical, intent(in) :: bent
+      real(wp), intent(inout) :: r(:, :)
+
+      real(wp), parameter :: other(3) = [1.0_wp, -0.75_wp, -0.5_wp]
+      integer(ip) :: i, j, n
+
+      do i = 1_ip, size(share, kind=ip)
+         do j = 1_ip, 2_ip
+            n = ends(j, i) + 1_ip
+            r(:, n) = r(:, n) + share(i)*f(:, j, i)
+         end do
+         if (.not. bent) cycle
+         n = ends(1, i) + 1_ip
+         r(4:6, n) = r(4:6, n) + share(i)*cross(other*d(:, i), f(1:3, 2, i))
+      end do
+   end subroutine add_ends
 
 end module elements

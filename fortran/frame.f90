@@ -19,7 +19,9 @@ contains
       real(wp), intent(in) :: a(3)
       real(wp) :: m(3, 3)
 
-      m = reshape([0.0_wp, a(3), -a(2), -a(3), 0.0_wp, a(1), a(2), -a(1), 0.0_wp], [3, 3])
+      m(:, 1) = [0.0_wp, a(3), -a(2)]
+      m(:, 2) = [-a(3), 0.0_wp, a(1)]
+      m(:, 3) = [a(2), -a(1), 0.0_wp]
    end function cross_matrix
 
    !> A vector pair (translations or forces, rotations or moments) from local to global axes.

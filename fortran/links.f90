@@ -1,13 +1,39 @@
 !> Chains of elements: which runs of the model hang together with nothing on the way.
 module links
-   use kinds, only: ip
+   use kinds, only: ip, wp
    implicit none (type, external)
    private
-   public :: link_chains
+   public :: keep_uneven, link_chains
 
    integer(ip), parameter :: cut = 2_ip   !! mark of a node kept because a chain was long
 
 contains
+
+   !> Keep the nodes where a soft element meets a stiff one: their sum would keep few digits of it.
+   pure subroutine keep_uneven(ends, joins, ei, length, apart, keep)
+      integer(ip), intent(in) :: ends(:, :), joins(:)   !! see `link_chains`
+      real(wp), intent(in) :: ei(:), length(:)          !! [N m2], [m]
+      real(wp), intent(in) :: apart                     !! ratio of EI/L**3 that is too large
+      integer(ip), intent(inout) :: keep(:)
+
+      real(wp), allocatable :: least(:), most(:)
+      real(wp) :: stiff
+      integer(ip) :: i, j, node
+
+      allocate (least(size(keep)), most(size(keep)))
+      least(:) = huge(stiff)
+      most(:) = 0.0_wp
+      do i = 1_ip, size(joins, kind=ip)
+         if (joins(i) == 0_ip) cycle
+         stiff = ei(i)/length(i)**3
+         do j = 1_ip, 2_ip
+            node = ends(j, i) + 1_ip
+            least(node) = min(least(node), stiff)
+            most(node) = max(most(node), stiff)
+         end do
+      end do
+      where (most/apart > least) keep = 1_ip
+   end subroutine keep_uneven
 
    !> Order the elements into chains from kept node to kept node.
    !>

@@ -41,12 +41,17 @@ def part_of(form: F8, start: F8 | float, end: F8 | float) -> F8:
 
 def tip_vectors(system: System, form: F8) -> F8:
     """(n_elem, 3) from the first to the second end; large coordinates would cost digits [m]."""
-    angle, radius = form[:, ANGLE], form[:, RADIUS]
-    along = np.where(system.kind == ARC, radius * np.sin(angle), form[:, LENGTH])
-    inward = radius * 2.0 * np.sin(0.5 * angle) ** 2 + form[:, OFFSET]
-    d = along[:, None] * system.axes[:, 0] + inward[:, None] * system.axes[:, 1]
-    apart = system.xyz[system.ends[:, 1]] - system.xyz[system.ends[:, 0]]
-    return np.ascontiguousarray(np.where((system.kind == SPRING)[:, None], apart, d))
+    d: F8 = form[:, LENGTH, None] * system.axes[:, 0]
+    bent = np.flatnonzero((system.kind == ARC) | (system.kind == TAPER))
+    if bent.size:
+        angle, radius, axes = form[bent, ANGLE], form[bent, RADIUS], system.axes[bent]
+        along = np.where(system.kind[bent] == ARC, radius * np.sin(angle), form[bent, LENGTH])
+        inward = radius * 2.0 * np.sin(0.5 * angle) ** 2 + form[bent, OFFSET]
+        d[bent] = along[:, None] * axes[:, 0] + inward[:, None] * axes[:, 1]
+    at = np.flatnonzero(system.kind == SPRING)
+    if at.size:
+        d[at] = system.xyz[system.ends[at, 1]] - system.xyz[system.ends[at, 0]]
+    return d
 
 
 def rigidity_at(form: F8, rigidity: F8, fraction: F8 | float) -> F8:

@@ -1,5 +1,6 @@
 """Exact counts of work, and the same bytes from every process."""
 
+import gc
 import os
 import subprocess
 import sys
@@ -30,6 +31,25 @@ def calls(results, case=None):
 
 def test_a_linear_case_is_one_analysis_one_factorisation_one_solve():
     assert calls(solve("SUPPORT 40 Y\nCASE A = W\n")) == (1, 1, 1)
+
+
+@pytest.mark.parametrize("text", ["SUPPORT 40 Y\n", "SUPPORT 40 +Y GAP=1mm MU=0.3\n"])
+def test_a_solve_leaves_nothing_for_the_collector(text):
+    """A cycle of references would keep its arrays until then, and the next from using them."""
+    model = read_text(HEAD + LINE + text + "CASE A = W\nCASE B = W + T1\n", "deck.inp")
+    trunnion.solve(model)
+    gc.collect()
+    gc.disable()
+    try:
+        gc.set_debug(gc.DEBUG_SAVEALL)
+        trunnion.solve(model)
+        gc.collect()
+        left = {type(x).__name__ for x in gc.garbage}
+    finally:
+        gc.set_debug(0)
+        gc.garbage.clear()
+        gc.enable()
+    assert not left & {"Structure", "Members", "SpdFactor", "CaseResult", "System", "ndarray"}
 
 
 def test_linear_cases_share_one_factor_and_one_call():

@@ -14,6 +14,7 @@ import numpy as np
 
 from trunnion.arrays import Certificate, Item, Loads, State, System
 from trunnion.certificate import contactlaw
+from trunnion.certificate.deformation import columns
 from trunnion.certificate.elements import ElementErrors, element_errors
 from trunnion.certificate.items import (
     LIMIT,
@@ -91,27 +92,27 @@ def _finite(system: System, state: State) -> Item:
 def _equilibrium(system: System, loads: Loads, state: State, scale: Scale) -> Item:
     """Support forces and nodal loads less reported end forces are zero at every node."""
     contacts, sliders = system.contacts, system.sliders
-    push, moment = state.reaction, np.zeros_like(state.reaction)
+    push, moment = columns(state.reaction), np.zeros(state.reaction.T.shape)
+    rubbing = columns(state.friction)
     if contacts.rotational.any():
-        turning = contacts.rotational[:, None]
+        turning = contacts.rotational
         push, moment = np.where(turning, 0.0, push), np.where(turning, push, 0.0)
     nodes = [system.ends.ravel(), contacts.node, sliders.node]
-    end = state.end_force.reshape(-1, 6)
-    forces = [-end[:, :3], push, state.friction]
-    moments = [-end[:, 3:], moment]
+    end = columns(state.end_force.reshape(-1, 6))
+    forces = [-end[:3], push, rubbing]
+    moments = [-end[3:], moment, np.zeros(rubbing.shape)]
     for cnode, force, torque in (
         (contacts.cnode, push, moment),
-        (sliders.cnode, state.friction, np.zeros_like(state.friction)),
+        (sliders.cnode, rubbing, np.zeros(rubbing.shape)),
     ):
         on = np.flatnonzero(cnode >= 0)
         if on.size:
             nodes.append(cnode[on])
-            forces.append(-force[on])
-            moments.append(-torque[on])
+            forces.append(-force[:, on])
+            moments.append(-torque[:, on])
     at = np.concatenate(nodes)
-    if len(sliders.mu):
-        moments.insert(2, np.zeros_like(state.friction))
-    residual = loads.nodal.T.copy()
-    for i, part in enumerate((*np.concatenate(forces).T, *np.concatenate(moments).T)):
+    residual = columns(loads.nodal)
+    parts = np.concatenate(forces, axis=1), np.concatenate(moments, axis=1)
+    for i, part in enumerate((*parts[0], *parts[1])):
         residual[i] += np.bincount(at, part, len(system.labels))
     return item("equilibrium", six(residual, scale.force, scale.moment), node(system))

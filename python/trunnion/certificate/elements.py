@@ -8,7 +8,7 @@ import numpy as np
 
 from trunnion.arrays import F8, SPRING, Loads, State, System
 from trunnion.certificate import deformation
-from trunnion.certificate.deformation import cross, two_difference
+from trunnion.certificate.deformation import columns, cross, two_difference
 from trunnion.certificate.items import six
 from trunnion.certificate.scales import Scale, floor, largest
 
@@ -93,16 +93,16 @@ def _block(
     (2, n) largest deformation [m, rad].
     Largest relative movement, rotation and free expansion [m, rad, m].
     """
-    tip = np.array(state.end_force[:, 1].T, order="C")
-    d, dist = deformation.tip_vector(system), np.array(loads.dist.T, order="C")
-    sums = tip + state.end_force[:, 0].T
+    start, tip = columns(state.end_force[:, 0]), columns(state.end_force[:, 1])
+    d, dist = deformation.tip_vector(system), columns(loads.dist)
+    sums = tip + start
     sums[:3] += dist * system.length
     sums[3:] += cross(d, tip[:3]) + deformation.load_moment(system, dist, loads.vary)
     v, law, stray, move = _deformed(system, loads, state, tip, d)
     error, size = np.abs(v - law), np.maximum(np.abs(v), np.abs(law))
     wrong = np.stack([error[:3].max(axis=0), error[3:].max(axis=0), stray / scale.force])
     own = np.stack([size[:3].max(axis=0), size[3:].max(axis=0)])
-    reach, ei = system.length, system.rigidity[:, 2]
+    reach, ei = system.length, system.rigidity[:, 2].copy()
     soft = np.divide(reach * system.flex, ei, out=np.zeros_like(reach), where=ei > 0.0)
     bent = soft * (reach * np.abs(tip[:3]).max(axis=0) + np.abs(tip[3:]).max(axis=0))
     kin = largest(move[:3]), largest(move[3:]), largest(loads.strain * reach)
@@ -112,7 +112,7 @@ def _block(
 
 def own_deformations(system: System, loads: Loads, state: State) -> F8:
     """(2, n) largest deformation of every element, by its displacements or its forces [m, rad]."""
-    tip = np.array(state.end_force[:, 1].T, order="C")
+    tip = columns(state.end_force[:, 1])
     v, law, _, _ = _deformed(system, loads, state, tip, deformation.tip_vector(system))
     size = np.maximum(np.abs(v), np.abs(law))
     return np.stack([size[:3].max(axis=0), size[3:].max(axis=0)])
@@ -127,14 +127,14 @@ def _deformed(system: System, loads: Loads, state: State, tip: F8, d: F8) -> tup
     here = np.take(state.u, i, axis=0)
     rows, rest = two_difference(np.take(state.u, j, axis=0), here)
     rest += np.take(state.u_low, j, axis=0) - np.take(state.u_low, i, axis=0)
-    move, turn = np.array(rows.T, order="C"), np.array(here[:, 3:].T, order="C")
+    move, turn = columns(rows), columns(here[:, 3:])
     law, stray = deformation.expected(system, loads, tip), np.zeros(len(i))
     spring = np.flatnonzero(system.kind == SPRING)
     if spring.size:
         turn[:, spring] += 0.5 * move[3:, spring]
     v = move.copy()
     v[:3] -= cross(turn, d)
-    v += rest.T
+    v += columns(rest)
     if spring.size:
         growth = loads.strain[spring] * system.length[spring]
         v[:, spring], law[:, spring], stray[spring] = _spring(system, v, tip, d, spring)

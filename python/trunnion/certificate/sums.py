@@ -15,9 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trunnion.arrays import F8, Certificate, Item, Loads, State, System
+from trunnion.certificate.deformation import columns
 from trunnion.certificate.elements import ALONG, SHAPE, ElementErrors, own_deformations, rows
 from trunnion.certificate.items import number, verdict
-from trunnion.certificate.scales import Scale, largest, measure
+from trunnion.certificate.scales import Scale, largest, measure_each
 
 ROUNDING = 16.0 * 2.0**-53  # of the largest number, of a sum or a product of a few
 MATCH = 1e-13  # of all sizes summed: checksums of rounded numbers agree so far
@@ -72,12 +73,12 @@ def part(
     solver : what the solver's corrections are measured against.
     """
     certificate, scale, found = examined
-    end = np.array(state.end_force.reshape(-1, 6).T, order="C")
+    end = columns(state.end_force.reshape(-1, 6))
     push = np.abs(state.reaction).max(axis=1, initial=0.0)
     force = max(largest(end[:3]), largest(push), largest(loads.nodal))
-    force = max(force, largest(loads.dist * system.length[:, None]))
+    force = max(force, largest(columns(loads.dist) * system.length))
     moment = largest(end[3:]) + largest(system.length) * force
-    moved = np.array(state.u.T, order="C")
+    moved = columns(state.u)
     most = {"force": force, "moment": moment}
     most |= {"length": largest(moved[:3]), "angle": largest(moved[3:])}
     across, turned = np.maximum(found.across, found.own.max(axis=1))
@@ -169,7 +170,7 @@ def _sizes(
         )
         for own, state in zip(loads, states, strict=True)
     ]
-    scales = [measure(some, *own) for own in few]
+    scales = measure_each(some, *zip(*few, strict=True))
     found = {
         name: np.array([getattr(scale, name) for scale in scales])
         for name in ("force", "moment", "length", "angle")
@@ -221,7 +222,8 @@ def _checked(
 def _checksums(loads: Sequence[Loads], states: Sequence[State]) -> F8:
     """(n_state, 8) sums of all numbers with scattered weights."""
     most = max(a.size for a in _arrays(loads[0], states[0]))
-    weights = np.mod(np.arange(1, most + 1) * (0.5 * (5.0**0.5 - 1.0)), 1.0) - 0.5
+    weights = np.arange(1, most + 1) * (0.5 * (5.0**0.5 - 1.0))
+    weights -= np.floor(weights) + 0.5
     return np.array(
         [
             [a.ravel() @ weights[: a.size] for a in _arrays(own, state)]

@@ -242,11 +242,12 @@ def _remarks(structure: Structure, reported: Reported) -> tuple[str, ...]:
     left, where = reported.digits
     if left < FEW_DIGITS:
         remarks.append(f"only {max(left, 0.0):.1f} digits are left, fewest at {where}")
-    turn = np.abs(reported.state.u[:, 3:])
-    if turn.size and turn.max() > LARGE_TURN:
-        node = structure.system.labels[int(turn.max(axis=1).argmax())]
+    turn = reported.moves[1]
+    if turn > LARGE_TURN:
+        row = int(np.abs(reported.state.u[:, 3:]).max(axis=1).argmax())
         remarks.append(
-            f"node {node} turns by {turn.max():.3g} rad: beyond the theory of small rotations"
+            f"node {structure.system.labels[row]} turns by {turn:.3g} rad: "
+            "beyond the theory of small rotations"
         )
     held = structure.held
     if reported.singular and held is not None:

@@ -23,7 +23,8 @@ class Chains:
     """Elements in chains from kept node to kept node.
 
     kept : (n_kept,) nodes of the model that stay, ascending.
-    place : (n_node,) number of a node among the kept ones; -1 inside chains.
+    place : (n_node + 1,) number of a node among the kept ones; -1 inside chains, and at the end
+        for the ground, whose number is -1.
     first : (n_chain + 1,) members of chain c are first[c] to first[c + 1].
     element, flip : (n_elem,) element of a member, and 1 where it runs from its second end to its
         first.
@@ -59,13 +60,12 @@ def find_chains(system: System) -> Chains:
     for nodes in (part for item in held for part in (item.node, item.cnode)):
         keep[nodes[nodes >= 0]] = 1
     ends = np.ascontiguousarray(system.ends, np.int32)
-    keep[_uneven(system, ends, joins)] = 1
-    count, first, element, flip, far = kernels.link_chains(
-        ends, joins.astype(np.int32), LONGEST, keep
-    )
+    may = joins.astype(np.int32)
+    kernels.keep_uneven(ends, may, system.rigidity, system.length, APART, keep)
+    count, first, element, flip, far = kernels.link_chains(ends, may, LONGEST, keep)
     first = np.ascontiguousarray(first[: count + 1])
     kept = np.flatnonzero(keep).astype(np.int32)
-    place = np.full(n, -1, np.int32)
+    place = np.full(n + 1, -1, np.int32)
     place[kept] = np.arange(len(kept), dtype=np.int32)
     start, last = first[:-1], first[1:] - 1
     lead = element[start]
@@ -73,18 +73,6 @@ def find_chains(system: System) -> Chains:
     joined = np.ascontiguousarray(np.column_stack((place[base], place[far[last]])))
     f = _flexibilities(system, joins)
     return Chains(kept, place, first, element, flip, far, base, joined, f)
-
-
-def _uneven(system: System, ends: I4, joins: B1) -> B1:
-    """Nodes where a soft element meets a stiff one: the sum would keep few digits of that."""
-    which = np.flatnonzero(joins)
-    stiff = np.log(system.rigidity[which, 2]) - 3.0 * np.log(system.length[which])
-    most, least = np.full(len(system.labels), -np.inf), np.full(len(system.labels), np.inf)
-    for side in (0, 1):
-        np.maximum.at(most, ends[which, side], stiff)
-        np.minimum.at(least, ends[which, side], stiff)
-    uneven: B1 = most - least > np.log(APART)
-    return uneven
 
 
 def _flexibilities(s: System, joins: B1) -> F8:
@@ -101,13 +89,14 @@ def _flexibilities(s: System, joins: B1) -> F8:
 
 def at_kept_nodes(system: System, chains: Chains) -> tuple[Contacts, Sliders, Contacts]:
     """Contacts, sliders and snubbers with the numbers of the kept nodes."""
-
-    def number(node: I4) -> I4:
-        return np.where(node >= 0, chains.place[node], -1).astype(np.int32)
-
-    contacts, sliders, snubbers = system.contacts, system.sliders, system.snubbers
+    contacts, sliders, snubbers, place = (
+        system.contacts,
+        system.sliders,
+        system.snubbers,
+        chains.place,
+    )
     return (
-        replace(contacts, node=number(contacts.node), cnode=number(contacts.cnode)),
-        replace(sliders, node=number(sliders.node), cnode=number(sliders.cnode)),
-        replace(snubbers, node=number(snubbers.node), cnode=number(snubbers.cnode)),
+        replace(contacts, node=place[contacts.node], cnode=place[contacts.cnode]),
+        replace(sliders, node=place[sliders.node], cnode=place[sliders.cnode]),
+        replace(snubbers, node=place[snubbers.node], cnode=place[snubbers.cnode]),
     )

@@ -5,6 +5,7 @@ from math import log10
 
 import numpy as np
 
+from trunnion import kernels
 from trunnion.arrays import F8, SLIP
 from trunnion.solver.coupled import coupled_step
 from trunnion.solver.newton import TINY_PIVOT, tangent_factor
@@ -86,14 +87,18 @@ def scatter_input(
 
     Every member's end forces are changed as a change of its stiffness by one part would do (rigid
     motion makes no force, so none is made of it), and so are those that would hold back its free
-    deformation, and the loads at nodes.
+    deformation, the moments of its forces about its base (as its direction is rounded), the
+    forces of supports and the loads at nodes.
     """
+    members = structure.members
     load = _scattered(point.u.size, 2).reshape(-1, 6) * forcing.nodal
     for start, at in enumerate((point, Point.zero(structure.n_node))):
         end = structure.member_forces(at, forcing, np.zeros_like(load))
-        signs = _scattered(len(end), start)
-        for side in (0, 1):
-            np.add.at(load, structure.members.ends[:, side], signs[:, None] * end[:, side])
+        if len(end):
+            signs = _scattered(len(end), start)
+            kernels.add_ends(members.ends, signs, members.d, at is point, end, load)
+    pushed = _scattered(len(response.reaction), 3)[:, None] * response.reaction
+    kernels.scatter(structure.at, pushed, load)
     load[structure.absent] = 0.0
     p = structure.solve(load)
     loss = _loss(structure, load, p)
@@ -130,11 +135,18 @@ def digits_left(
 
 def _scattered(n: int, start: int) -> F8:
     """Signs and sizes from 0.5 to 1 without order (Weyl); numpy.random would be imported for it."""
-    share = np.mod(np.arange(1, n + 1) * (0.5 * (5.0**0.5 - 1.0)) + 0.37 * start, 1.0)
+    share = np.arange(1, n + 1) * (0.5 * (5.0**0.5 - 1.0)) + 0.37 * start
+    share -= np.floor(share)
     signs: F8 = np.where(share < 0.5, -0.5 - share, share)
     return signs
 
 
 def travel(structure: Structure, p: F8) -> float:
     """Largest movement [m]; a rotation counts with what it moves over the largest element."""
-    return float((np.abs(p) * structure.levers).max(initial=0.0))
+    return farthest(structure, kernels.largest_moves(p))
+
+
+def farthest(structure: Structure, moves: tuple[float, float]) -> float:
+    """Larger of a translation [m] and what a rotation [rad] moves over the largest element."""
+    length, turned = moves[0], structure.reach * moves[1]
+    return length if length >= turned or length != length else turned

@@ -1,5 +1,7 @@
 """The work ledger: exact counts of what a solve did, the same on every machine."""
 
+from weakref import WeakKeyDictionary
+
 from trunnion.kernels import SpdWork
 from trunnion.watch import Watch
 
@@ -20,7 +22,7 @@ class Ledger:
     def __init__(self, watch: Watch | None = None) -> None:
         self.watch = watch or Watch()
         self.count = dict.fromkeys(self.NAMES, 0)
-        self._seen: dict[int, SpdWork] = {}
+        self._seen: WeakKeyDictionary[object, SpdWork] = WeakKeyDictionary()
         self.refining = False
 
     def add(self, **more: int) -> None:
@@ -30,17 +32,17 @@ class Ledger:
 
     def begin(self, owner: object, work: SpdWork) -> None:
         """Do not count what a factor has done before this ledger was opened."""
-        self._seen[id(owner)] = work
+        self._seen[owner] = work
 
     def follow(self, owner: object, work: SpdWork) -> None:
         """Take over what the factor of `owner` has done since last time."""
-        seen = self._seen.get(id(owner), SpdWork(0, 0, 0, 0))
+        seen = self._seen.get(owner, SpdWork(0, 0, 0, 0))
         self.count["analyse"] += work.analyse - seen.analyse
         self.count["factorise"] += work.factorise - seen.factorise
         self.count["refine" if self.refining else "solve"] += work.solve - seen.solve
         if work.inertia > seen.inertia:
             self.add(inertia=work.inertia - seen.inertia)
-        self._seen[id(owner)] = work
+        self._seen[owner] = work
 
     def snapshot(self) -> dict[str, int]:
         """Copy of the counts."""

@@ -146,7 +146,7 @@ def end_forces(
         c.flip,
         c.far,
         c.base,
-        c.place,
+        c.place[:-1],
         c.f,
         system.axes,
         members.arm,

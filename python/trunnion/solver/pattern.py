@@ -5,9 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from trunnion import kernels
 from trunnion.arrays import I4, Contacts, Sliders
-
-SIX = 6
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -52,7 +51,8 @@ def build_pattern(
     begin = np.concatenate(([0], np.cumsum(neighbours)))
     rank = np.zeros(len(pairs), np.int32)
     rank[joined] = (np.arange(len(unique)) - begin[unique // n])[inverse]
-    colptr, row = _columns(n, neighbours, begin, unique % n)
+    higher = (unique % n).astype(np.int32)
+    colptr, row = kernels.pattern_columns(begin.astype(np.int32), higher)
     cut = np.cumsum([len(g) for g in groups])[:-1]
     return Pattern(colptr, row, *np.split(rank, cut))
 
@@ -66,21 +66,3 @@ def _unique(key: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64
     inverse = np.empty(len(key), np.int64)
     inverse[order] = np.cumsum(first) - 1
     return ordered[first], inverse
-
-
-def _columns(
-    n: int, neighbours: np.ndarray, begin: np.ndarray, higher: np.ndarray
-) -> tuple[I4, I4]:
-    """Column pointers and rows: each column of a node holds its block from its own row down."""
-    blocks = np.empty(n + len(higher), np.int64)  # a node, then its higher neighbours
-    own = np.arange(n) + begin[:-1]
-    is_own = np.zeros(len(blocks), bool)
-    is_own[own] = True
-    blocks[own] = np.arange(n)
-    blocks[~is_own] = higher
-    rows = (SIX * blocks[:, None] + np.arange(SIX)).ravel()
-    length = (SIX * (neighbours + 1))[:, None] - np.arange(SIX)
-    colptr = np.concatenate(([0], np.cumsum(length.ravel())))
-    start = (SIX * own)[:, None] + np.arange(SIX)
-    index = np.arange(colptr[-1]) - np.repeat(colptr[:-1] - start.ravel(), length.ravel())
-    return colptr.astype(np.int32), rows[index].astype(np.int32)

@@ -3,7 +3,6 @@
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from trunnion import kernels
 from trunnion.arrays import F8, I4, Loads, System
@@ -27,11 +26,16 @@ EXTENDED_PIVOT = 1e-12  # a pivot in double-double that is worth one in doubles
 
 
 class Box:
-    """One analysed factor, shared by structures of the same pattern; `owner` filled it last."""
+    """One analysed factor, shared by structures of the same pattern.
+
+    `owner` is the mark of the structure that filled it last, not that structure: a cycle of
+    references would keep all of its arrays until the collector runs, and the next solve from
+    using their memory.
+    """
 
     def __init__(self) -> None:
         self.spd: kernels.SpdFactor | None = None
-        self.owner: Structure | None = None
+        self.owner: object = None
         self.held: tuple[F8, F8, float] | None = None
         self.rcond = 0.0
 
@@ -61,6 +65,7 @@ class Structure:
         like: "Structure | None" = None,
     ) -> None:
         self.system, self.ledger = system, ledger
+        self.mark = object()
         self.shifted = self.checked = False  # a singular tangent was met; it was looked into
         self.keep, self.parent, self.like = keep, parent, like
         self.extended: ExtendedFactor | None = None
@@ -163,7 +168,7 @@ class Structure:
     @property
     def held(self) -> tuple[F8, F8, float] | None:
         """Tangents and shift in the factor; None when it holds another structure's."""
-        return self.box.held if self.box.owner is self else None
+        return self.box.held if self.box.owner is self.mark else None
 
     @property
     def rcond(self) -> float:
@@ -175,11 +180,6 @@ class Structure:
         """Extent of the model [m], at least 1."""
         xyz = self.system.xyz
         return max(1.0, float(np.ptp(xyz, axis=0).max())) if len(xyz) else 1.0
-
-    @cached_property
-    def turning(self) -> NDArray[np.intp]:
-        """Contacts that resist rotations."""
-        return np.flatnonzero(self.contacts.rotational)
 
     @cached_property
     def hangers(self) -> tuple[int, ...]:
@@ -356,7 +356,7 @@ class Structure:
             return False
         finally:
             self.ledger.follow(box, box.spd.work)
-        box.owner, box.held = self, (tangent, slider_tangent, shift)
+        box.owner, box.held = self.mark, (tangent, slider_tangent, shift)
         return True
 
     def _factorise_extended(
@@ -371,7 +371,7 @@ class Structure:
             box.rcond = factor.factorise(tangent, slider_tangent, shift) / EXTENDED_PIVOT
         except NotPositiveDefiniteError:
             return False
-        box.owner, box.held = self, (tangent, slider_tangent, shift)
+        box.owner, box.held = self.mark, (tangent, slider_tangent, shift)
         return True
 
     def extend(self, extended: bool) -> bool:
@@ -396,7 +396,7 @@ class Structure:
             return rows.reshape(r.shape)
         spd = self.box.spd
         assert spd is not None
-        assert self.box.owner is self
+        assert self.box.owner is self.mark
         shape = r.shape
         x = spd.solve(r.reshape(-1, 6 * self.n_node))
         self.ledger.follow(self.box, spd.work)
@@ -407,19 +407,19 @@ class Structure:
         v = np.ascontiguousarray(v)
         r = np.zeros_like(v)
         self.member_forces(Point(v, np.zeros_like(v)), self.still, r)
-        self.scatter(-np.einsum("cij,cj->ci", tangent, self.gather(v)), r)
+        kernels.contact_product(self.at, tangent, True, v, r)
         self.sliders_product(slider_tangent, v, r)
         r[self.absent] = 0.0
         return -r
 
     def changing_product(self, response: Response, p: F8, r: F8) -> None:
         """Subtract from r the share of K p that comes from contacts which may change."""
-        kernels.contact_product(self.at, response.tangent, p, r)
+        kernels.contact_product(self.at, response.tangent, False, p, r)
         self.sliders_product(response.slider_tangent, p, r)
 
     def sliders_product(self, slider_tangent: F8, p: F8, r: F8) -> None:
         """Subtract from r the share of K p that comes from sliders."""
-        kernels.contact_product(self.slider_at, slider_tangent, p, r)
+        kernels.contact_product(self.slider_at, slider_tangent, True, p, r)
 
     def coupling(self, response: Response, sliding: Sliding, p: F8) -> tuple[F8, F8]:
         """Change of sliding friction forces through their normal forces for a change p.
@@ -444,15 +444,8 @@ class Structure:
 
     def scatter(self, force: F8, r: F8) -> None:
         """Add contact forces (n_contact, 3) to the nodes' r, and their opposites at cnodes."""
-        columns = self.at[:, 3:4] + np.arange(3)
-        np.add.at(r, (self.at[:, 0:1], columns), force)
-        paired = self.at[:, 1] >= 0
-        np.subtract.at(r, (self.at[paired, 1:2], columns[paired]), force[paired])
+        kernels.scatter(self.at, force, r)
 
     def gather(self, p: F8) -> F8:
         """Relative displacements (n_contact, 3) of the contacts for displacements p."""
-        columns = self.at[:, 3:4] + np.arange(3)
-        w: F8 = p[self.at[:, 0:1], columns]
-        paired = self.at[:, 1] >= 0
-        w[paired] -= p[self.at[paired, 1:2], columns[paired]]
-        return w
+        return kernels.gather(self.at, p)

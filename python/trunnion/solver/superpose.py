@@ -92,13 +92,15 @@ def _result(
     reached, where, blind = digits_left(structure, sizes.travel, terms.scattered, correction)
     if blind or not certificate.worst <= STRICT:
         return None
+    moves = kernels.largest_moves(state.u)
     reported = Reported(
         state,
         correction,
         found["correction_r"],
         partial(expand, structure.members, structure.system, terms.rigid_u),
         terms.rigid_r[: len(state.reaction)],
-        terms.penalty_effect(structure, sizes, state.u),
+        moves,
+        terms.penalty_effect(structure, sizes, moves),
         (reached, where),
         blind=False,
         singular=False,

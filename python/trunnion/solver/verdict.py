@@ -7,10 +7,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from trunnion import kernels
 from trunnion.arrays import ENGAGED, F8, OPEN, SLIP, State
 from trunnion.solver.convergence import judge
 from trunnion.solver.coupled import coupled_step
-from trunnion.solver.digits import Scattered, digits_left, scatter_input, travel
+from trunnion.solver.digits import Scattered, digits_left, farthest, scatter_input, travel
 from trunnion.solver.members import expand
 from trunnion.solver.newton import tangent_factor
 from trunnion.solver.quantities import Forcing, Point, Response, Sliding
@@ -43,15 +44,17 @@ class Terms:
         """What changes are measured against."""
         return Sizes(travel(structure, self.u), *support_sizes(structure, self.reaction))
 
-    def penalty_effect(self, structure: Structure, sizes: "Sizes", u: F8) -> dict[str, float]:
+    def penalty_effect(
+        self, structure: Structure, sizes: "Sizes", moves: tuple[float, float]
+    ) -> dict[str, float]:
         """Relative change of displacements and reactions on rigid supports.
 
         Parameters
         ----------
-        u : of all nodes of the model: those of the equations may be supports alone.
+        moves : of all nodes of the model: those of the equations may be supports alone.
         """
-        moved = travel(structure, self.rigid_u) / max(travel(structure, u), NOTHING)
-        pushed, turned = _halves(structure, self.rigid_r)
+        moved = travel(structure, self.rigid_u) / max(farthest(structure, moves), NOTHING)
+        pushed, turned = kernels.largest_forces(structure.at, self.rigid_r)
         return {"u": moved, "R": max(pushed / sizes.force, turned / sizes.moment)}
 
 
@@ -72,6 +75,7 @@ class Reported:
     correction_r: float
     rigid: Callable[[], F8]
     penalty_r: F8
+    moves: tuple[float, float]  # largest translation and rotation of all nodes [m, rad]
     penalty_effect: dict[str, float]
     digits: tuple[float, str]  # left of 16, and the freedom that lost most
     blind: bool  # the corrections were found with a factor that has no digits
@@ -120,13 +124,15 @@ def report_numbers(
     state = _state(structure, every, law, response, end)
     terms = Terms(point.u, rigid[0], response.reaction, rigid[1], scattered)
     sizes = terms.sizes(structure)
+    moves = kernels.largest_moves(state.u)
     reached, where, blind = digits_left(structure, sizes.travel, scattered, left[0])
     return Reported(
         state,
         *left,
         partial(expand, structure.members, structure.system, rigid[0]),
         rigid[1][: len(structure.system.contacts.node)],
-        terms.penalty_effect(structure, sizes, state.u),
+        moves,
+        terms.penalty_effect(structure, sizes, moves),
         (reached, where),
         blind,
         shift > 0.0,
@@ -153,13 +159,13 @@ def corrections(
     du = travel(structure, p)
     rubbed = after.friction - before.friction
     force, moment = support_sizes(structure, before.reaction)
-    push, turn = _halves(structure, after.reaction - before.reaction)
+    push, turn = kernels.largest_forces(structure.at, after.reaction - before.reaction)
     return du / max(u, 1e-300), max(push / force, turn / moment, _largest(rubbed) / force)
 
 
 def unbalance(structure: Structure, r: F8, response: Response) -> float:
     """Out-of-balance force relative to the largest support force; 0 without supports' forces."""
-    force, moment = _halves(structure, response.reaction)
+    force, moment = kernels.largest_forces(structure.at, response.reaction)
     lever = max(moment, 0.01 * force)
     if force == 0.0:
         return 0.0
@@ -168,17 +174,9 @@ def unbalance(structure: Structure, r: F8, response: Response) -> float:
 
 def support_sizes(structure: Structure, reaction: F8) -> tuple[float, float]:
     """Largest force and moment of the supports, at least 1 N and that force [N, N m]."""
-    force, moment = _halves(structure, reaction)
+    force, moment = kernels.largest_forces(structure.at, reaction)
     force = max(1.0, force)
     return force, max(force, moment)
-
-
-def _halves(structure: Structure, a: F8) -> tuple[float, float]:
-    """Largest of forces and of moments of contacts."""
-    size, turning = np.abs(a), structure.turning
-    moment = float(size[turning].max(initial=0.0))
-    size[turning] = 0.0
-    return float(size.max(initial=0.0)), moment
 
 
 def _largest(a: F8) -> float:
