@@ -12,6 +12,7 @@ class Watch:
     case, part : what is solved now, and at which part of it: "certificate".
     done, total : cases.
     passes, residual : iterations of this case so far and what the last one started from [N].
+    force : unit in which this is told, and newtons of one.
     """
 
     doing: str = ""
@@ -21,6 +22,7 @@ class Watch:
     total: int = 0
     passes: int = 0
     residual: float = math.nan
+    force: tuple[str, float] = ("N", 1.0)
 
     def turn(self, doing: str) -> None:
         """Go on to other work."""
@@ -46,5 +48,6 @@ class Watch:
         if self.passes:
             text += f": iteration {self.passes}"
             if math.isfinite(self.residual):
-                text += f", residual {self.residual:.1e} N"
+                unit, one = self.force
+                text += f", residual {self.residual / one:.1e} {unit}"
         return text

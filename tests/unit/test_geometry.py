@@ -4,7 +4,9 @@ import math
 
 import pytest
 
-from trunnion.errors import ModelError
+import trunnion
+from trunnion.deck.reader import read_text
+from trunnion.errors import DeckError, ModelError
 from trunnion.model import Bend, Material, Model, Node, Pipe, Place, Section, Spring, Support
 from trunnion.system.bends import flexibility, nominal_diameter
 from trunnion.system.geometry import Geometry, place
@@ -223,3 +225,20 @@ def test_thick_bend_is_no_stiffer_than_straight_pipe_and_own_k_stands() -> None:
     thick = Section("S", 0.1, 0.04)
     assert flexibility(Bend("30"), 0.5, thick, GRADE_B, 1e7) == 1.0
     assert flexibility(Bend("30", k=0.7), 0.6096, S301, GRADE_B, 1e7) == 0.7
+
+
+@pytest.mark.parametrize(
+    ("cards", "said"),
+    [
+        (
+            "PIPE 1 2 DX=10\nPIPE 2 3 DZ=90\nBEND 2 R=12",
+            "needs 12 in of pipe 1-2, which is 10 in",
+        ),
+        ("PIPE 1 2 DX=10\nPIPE 2 3 DZ=9\nPIPE 1 3 DX=10 DZ=9.5", "0.5 in apart"),
+        ("SECTION B OD=4 WALL=3\nPIPE 1 2 DX=10", "half the outside diameter, 4 in"),
+    ],
+)
+def test_errors_have_the_lengths_of_the_deck(cards, said):
+    head = "UNITS in lbf psi F\nMATERIAL M E=29e6 DENSITY=.28\nSECTION S OD=6 WALL=.3\nANCHOR 1\n"
+    with pytest.raises((DeckError, ModelError), match=said):
+        trunnion.solve(read_text(f"{head}{cards}\nCASE A = W\n"))

@@ -562,6 +562,79 @@ def test_the_whole_outline_stands_in_the_middle_and_in_sight(parts_browser):
     assert np.ptp(found, axis=0).max() > 1.0
 
 
+@pytest.mark.parametrize("zoom", [1.0, 8.0])
+def test_nothing_is_cut_off_however_wide_and_near(parts_browser, zoom):
+    """Between the planes before and behind, as the wheel zooms: by the aspect ratio."""
+    browser = parts_browser
+    size = {"width": 2200, "height": 657, "deviceScaleFactor": 1, "mobile": False}
+    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
+    try:
+        browser.refresh()
+        until_drawn(browser, "OPE move")
+        browser.execute_async_script(
+            """
+            const stage = document.getElementById('scene'), done = arguments[1];
+            const r = stage._fullLayout.scene.aspectratio, f = arguments[0];
+            Plotly.relayout(stage, { 'scene.aspectratio': { x: f * r.x, y: f * r.y, z: f * r.z } })
+                .then(() => setTimeout(done, 300));""",
+            zoom,
+        )
+        depth, speed = browser.execute_script(
+            """
+            const stage = document.getElementById('scene'), scene = stage._fullLayout.scene._scene;
+            const p = scene.glplot.cameraParams, s = scene.dataScale;
+            const times = (m, v) => [0, 1, 2, 3].map((r) =>
+                m[r] * v[0] + m[4 + r] * v[1] + m[8 + r] * v[2] + m[12 + r]);
+            const depth = stage.data.flatMap((t) => Array.from(t.x, (x, i) => x === null ? 0 :
+                times(p.projection, times(p.view, times(p.model,
+                    [x * s[0], t.y[i] * s[1], t.z[i] * s[2]])))[2]));
+            const { eye, center } = stage._fullLayout.scene.camera;
+            return [[Math.min(...depth), Math.max(...depth)], scene.camera.translateSpeed *
+                Math.hypot(eye.x - center.x, eye.y - center.y, eye.z - center.z)];"""
+        )
+    finally:
+        browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+        browser.refresh()
+        until_drawn(browser, "OPE move")
+    assert -1.0 < depth[0] < depth[1] < 1.0
+    assert speed == pytest.approx(2.0)  # the height of the picture is 2: it follows the mouse
+
+
+THICK = """\
+UNITS    mm kN bar C
+MATERIAL S  E=203GPa NU=0.3 ALPHA=12e-6 DENSITY=7850
+SECTION  P  NPS=24 SCH=40
+ANCHOR   10
+PIPE     10 20 DX=1500
+BEND     20
+PIPE     20 30 DZ=2500
+ANCHOR   30
+CASE OPE = W
+"""
+
+
+def test_anchors_leave_thick_pipes_to_be_seen_and_node_marks_long_lines(tmp_path):
+    long = THICK.partition("PIPE")[0].replace("NPS=24", "NPS=4")
+    long += "".join(f"PIPE {i} {i + 1} DX=6000\nSUPPORT {i + 1} +Y\n" for i in range(10, 90))
+    found = {}
+    with chromium() as driver:
+        for name, deck in (("thick", THICK), ("long", long + "CASE OPE = W\n")):
+            (tmp_path / f"{name}.inp").write_text(deck)
+            assert leave("run", tmp_path / f"{name}.inp", "-o", tmp_path, "--html") == 0
+            opened(driver, tmp_path / f"{name}.html", "OPE move")
+            found[name] = driver.execute_script(
+                """
+                const data = document.getElementById('scene').data;
+                const solid = data.find((t) => t.type === 'mesh3d' && t.facecolor);
+                const marks = data.find((t) => t.mode === 'markers');
+                const x = Array.from(solid.y.slice(0, 8));
+                return [Math.max(...x) - Math.min(...x), Array.isArray(marks.marker.color)];"""
+            )
+    assert found["thick"][1] is False
+    assert 0.61 < found["thick"][0] < 2 * 0.61  # the block of the first anchor, across
+    assert found["long"][1] is True  # of the colours of the pipe
+
+
 def test_a_picture_of_many_elements_has_few_points_on_each():
     from types import SimpleNamespace
 

@@ -183,9 +183,9 @@ def test_progress_shows_case_iteration_and_residual_and_goes(tmp_path):
     found = on_terminal(["run", deck, "-o", tmp_path], script=script)
     assert found.code == 0
     told = ANSI.sub("", found.sent)
-    assert "solving OPE (1 of 3): iteration 1, residual 1.2e+03 N" in told.replace("\r", "")
+    assert "solving OPE (1 of 3): iteration 1, residual 1.2e+00 kN" in told.replace("\r", "")
     assert found.screen[0].startswith("Line with many cases")
-    assert "residual 1.2e+03 N" not in words(found)
+    assert "residual 1.2e+00 kN" not in words(found)
 
 
 def test_progress_is_on_stderr_so_that_a_pipe_gets_the_summary_alone(tmp_path):
@@ -193,7 +193,7 @@ def test_progress_is_on_stderr_so_that_a_pipe_gets_the_summary_alone(tmp_path):
     found = on_terminal(["run", line(tmp_path), "-o", tmp_path], script=script, stdout=False)
     summary, _, rest = found.sent.partition("wrote ")
     assert "\x1b" not in summary
-    assert "residual 1.2e+03 N" in rest
+    assert "residual 1.2e+00 kN" in rest
 
 
 @pytest.mark.parametrize("env", [{"TERM": "dumb"}], ids=["dumb"])
@@ -201,7 +201,7 @@ def test_a_terminal_that_cannot_write_over_a_line_shows_no_progress(tmp_path, en
     script = SLOW.format(wait="pass").replace('asked["watch"]', "progress.Watch()")
     found = on_terminal(["run", line(tmp_path), "-o", tmp_path], script=script, env=env)
     assert found.code == 0
-    assert "residual 1.2e+03 N" not in found.sent
+    assert "residual 1.2e+00 kN" not in found.sent
 
 
 def test_a_short_run_imports_neither_rich_nor_shows_anything(tmp_path):
@@ -211,7 +211,7 @@ def test_a_short_run_imports_neither_rich_nor_shows_anything(tmp_path):
     )
     found = on_terminal(["run", line(tmp_path), "-o", tmp_path], script=script)
     assert found.screen[-1] == "False"
-    assert "residual 1.2e+03 N" not in found.sent
+    assert "residual 1.2e+00 kN" not in found.sent
 
 
 # ------------------------------------------------------------------ Ctrl-C
@@ -221,7 +221,7 @@ def test_ctrl_c_ends_with_one_line_and_nothing_half_written(tmp_path):
     pressed = []
 
     def press(process, sent):
-        if "residual 1.2e+03 N" in sent and not pressed:
+        if "residual 1.2e+00 kN" in sent and not pressed:
             pressed.append(True)
             process.send_signal(signal.SIGINT)
 

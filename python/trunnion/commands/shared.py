@@ -119,6 +119,10 @@ def solve_model(model: "Model", spread: int = 0, watch: "Watch | None" = None) -
     import trunnion
     from trunnion.origin import telling
 
+    if watch is not None:
+        from trunnion.deck.units import scale_of
+
+        watch.force = model.units.force, scale_of(model.units.force, "force")(1.0)
     asked: dict[str, Any] = {"spread": spread, "watch": watch}
     with telling(model.origin, "" if model.file is None else model.file.name):
         results: Results = trunnion.solve(model, **{key: x for key, x in asked.items() if x})

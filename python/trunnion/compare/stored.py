@@ -35,7 +35,7 @@ def read_report(path: Path) -> Report:
     except OSError as error:
         refuse(path, error.strerror or "cannot be read")
     except (ValueError, RecursionError) as error:
-        refuse(path, f"no JSON: {error}")
+        refuse(path, f"no JSON, as trunnion run writes it: {error}")
     if not isinstance(report, dict) or report.get("schema") != 1:
         refuse(path, 'no result of trunnion run: "schema" is not 1')
     cases = report.get("cases")

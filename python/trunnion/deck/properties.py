@@ -6,6 +6,7 @@ from typing import Any
 from trunnion.deck.context import Context
 from trunnion.deck.keywords import PRESSURE_SETS, TEMPERATURE_SETS
 from trunnion.deck.record import Record
+from trunnion.deck.units import in_unit
 from trunnion.deck.values import nearest
 from trunnion.library.names import UnknownName
 from trunnion.model import Material, Operation, Section, TablePoint
@@ -136,7 +137,8 @@ def _fits(run: Context, record: Record, od: float, wall: float) -> bool:
     """Check that wall and lining fit into the pipe, and that layers have a thickness."""
     keys = record.keys
     if wall > 0.5 * od * (1.0 + 1e-5):  # a printed half diameter is a solid bar
-        run.complain(record, f"WALL is more than half the outside diameter, {od:g} m", "WALL=")
+        outside = in_unit(run.model.units.length, od)
+        run.complain(record, f"WALL is more than half the outside diameter, {outside}", "WALL=")
         return False
     if keys.get("LINING", 0.0) > 0.5 * od - wall:
         run.complain(record, "LINING is more than half the bore", "LINING=")

@@ -238,4 +238,14 @@ def scales(units: Units) -> dict[str, Scale]:
     return {dim: scale_of(unit, dim) for dim, unit in derived(units).items()}
 
 
+def in_unit(unit: str, metres: float) -> str:
+    """Write a length in a unit of LENGTHS, for messages."""
+    return f"{metres / scale_of(unit, 'length')(1.0):.6g} {unit}"
+
+
+def small_length(units: Units, metres: float) -> str:
+    """Write a short length in mm, or in inches where the deck has inches or feet."""
+    return in_unit("in" if units.length in ("in", "ft") else "mm", metres)
+
+
 SI = Units()

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from math import hypot
 
+from trunnion.deck.units import in_unit, small_length
 from trunnion.errors import Problem
 from trunnion.frozen import frozen
 from trunnion.model import Model, Pipe, Spring
@@ -106,7 +107,8 @@ def _check_loops(model: Model, net: Net, problems: list[Problem]) -> None:
                 common += 1
             keep = max(0, common - 1)
             way = _ways(pipe.end, one[keep:], other[keep:], closed=common > 0)
-            text = f"PIPE {pipe_name(pipe)}: {way}, {1e3 * miss:.6g} mm apart"
+            apart = small_length(model.units, miss)
+            text = f"PIPE {pipe_name(pipe)}: {way}, {apart} apart"
             problems.append(Problem(pipe.place, text))
 
 
@@ -138,9 +140,9 @@ def _check_tangents(
                 continue  # said once, at the bend where the pipe starts
             if c.tangent + shared > length * (1.0 + 1e-9):
                 bends = f"the bends at {pipe.start} and {pipe.end} need" if shared else "it needs"
+                need, there = (in_unit(model.units.length, x) for x in (c.tangent + shared, length))
                 text = (
-                    f"BEND {label}: {bends} {c.tangent + shared:.6g} m of pipe "
-                    f"{pipe_name(pipe)}, which is {length:.6g} m long"
+                    f"BEND {label}: {bends} {need} of pipe {pipe_name(pipe)}, which is {there} long"
                 )
                 problems.append(Problem(c.legs.bend.place, text))
 

@@ -125,7 +125,7 @@ const DATA = JSON.parse(document.getElementById("data").textContent);
   /* supports, arrows and movements stay small against spans where there are many of these */
   const spans = scene.spans.slice().sort((a, b) => a - b);
   const bay = spans.length ? spans[Math.floor(spans.length / 2)] || size : size;
-  const glyph = Math.max(2.2 * thick, Math.min(size / 75, 0.25 * bay));
+  const glyph = Math.max(Math.min(2.2 * thick, size / 25), Math.min(size / 75, 0.25 * bay));
   const reach = Math.min(0.1 * size, 2.5 * bay);
   /* `say` is what pointing at the next solids shows */
   const solids = () => ({ x: [], y: [], z: [], i: [], j: [], k: [], facecolor: [], text: [],
@@ -257,7 +257,7 @@ const DATA = JSON.parse(document.getElementById("data").textContent);
     return traces;
   }
   /* many nodes: their marks take the pipe's colours */
-  const MANY = n_node > 500, held = new Map();
+  const MANY = n_node > 500 || bay < size / 60, held = new Map();
   scene.cards.forEach((card, k) => held.set(card.node, [...(held.get(card.node) || []), k]));
   const place2 = (u, i, s) => [s * u[6 * i], s * u[6 * i + 1], s * u[6 * i + 2]];
   function load(c, i) {
@@ -332,7 +332,7 @@ const DATA = JSON.parse(document.getElementById("data").textContent);
       line: { color: "#8b96a5", width: 2 } };
   }
   function triad() {
-    const corner = add(low, [1, 1, 1], -0.02 * size), length = 0.07 * size;
+    const length = 0.07 * size, corner = standing(length);
     const found = { x: [], y: [], z: [], text: [] }, color = [];
     ["X", "Y", "Z"].forEach((name, k) => {
       const tip = [...corner];
@@ -371,7 +371,7 @@ const DATA = JSON.parse(document.getElementById("data").textContent);
   eye[level[across]] = high_axis === 2 && across === 0 ? -0.75 : 0.75;
   eye[level[1 - across]] = high_axis === 2 && across === 0 ? -1.35 : 1.35;
   const room = 0.3 * size, ranges = low.map((v, k) => [v - room, high[k] + room]);
-  const { fit, middle } = fitted(), ratio = ranges.map((r) => fit * (r[1] - r[0]) / size);
+  const { fit, middle, right, rise } = fitted(), ratio = ranges.map((r) => fit * (r[1] - r[0]) / size);
   /* plotly shows a cube of 1 so that it takes 1/2.15 of the height; the model shall fill 3/4, and
      its outline as it is seen, not its box, stands in the middle */
   function fitted() {
@@ -384,18 +384,33 @@ const DATA = JSON.parse(document.getElementById("data").textContent);
         const v = dot(add(place(nodes, i), centre, -1), d);
         a = Math.min(a, v); b = Math.max(b, v);
       }
-      return { size: b - a + 0.16 * size, middle: 0.5 * (a + b) };
+      return { size: b - a + 0.16 * size + 2 * thick, middle: 0.5 * (a + b) };
     };
     const across = extent(right), along = extent(rise);
     const { clientWidth: w, clientHeight: h } = stage;
     return { fit: 2.15 * size * Math.min(0.76 * (w / h) / across.size, 0.84 / along.size),
-      middle: add(scaled(right, across.middle), rise, along.middle) };
+      middle: add(scaled(right, across.middle), rise, along.middle), right, rise };
   }
+  /* the corner of the model's box that the axes stand at: the first at which all three are seen */
+  function standing(length) {
+    const corners = [0, 4, 2, 1, 6, 5, 3, 7].map((bits) => low.map((v, k) =>
+      bits & (1 << k) ? high[k] + 0.02 * size : v - 0.02 * size));
+    const seen = (v) => {
+      const d = add(add(v, scaled(add(low, high), 0.5), -1), middle, -1), one = fit / size / 1.075;
+      return Math.abs(dot(d, right)) * one < 0.9 * stage.clientWidth / stage.clientHeight &&
+        Math.abs(dot(d, rise)) * one < 0.9;
+    };
+    return corners.find((v) => seen(v) && [0, 1, 2].every((k) =>
+      seen(v.map((x, i) => x + (i === k ? length : 0))))) || corners[0];
+  }
+  /* what lies nearer than the eye is cut off, also where the wheel has made all of it larger; the
+     distance changes nothing else, as the projection is parallel, but how fast the mouse moves it */
+  const DISTANCE = 20 * Math.max(norm(ratio), 1);
   const axis = (k) => ({ visible: false, showspikes: false, range: ranges[k], autorange: false });
   function camera() {
     const xyz = (v) => ({ x: v[0], y: v[1], z: v[2] }), center = scaled(middle, fit / size);
     return { up: xyz(up), projection: { type: "orthographic" },
-      eye: xyz(add(center, eye, 1.15 / norm(eye))), center: xyz(center) };
+      eye: xyz(add(center, eye, DISTANCE / norm(eye))), center: xyz(center) };
   }
   const layout = { margin: { l: 0, r: 0, t: 0, b: 0 }, showlegend: false, uirevision: "kept",
     paper_bgcolor: "#fff", hoverlabel: { bgcolor: "#fff", bordercolor: "#44546a", align: "left",
@@ -437,8 +452,11 @@ const DATA = JSON.parse(document.getElementById("data").textContent);
       colour.options[colour.selectedIndex].text + "; movements \u00d7 " + digits(s) : "";
     const config = { displaylogo: false, responsive: true, displayModeBar: false,
       scrollZoom: true, plotGlPixelRatio: PIXELS };
-    return Plotly.react(stage, traces, layout, config).then(() => { stage.dataset.drawn = c
-      ? c.name + " " + key : "model"; });
+    return Plotly.react(stage, traces, layout, config).then(() => {
+      const plot = stage._fullLayout.scene._scene;
+      if (plot && plot.camera) plot.camera.translateSpeed = 2 / DISTANCE;
+      stage.dataset.drawn = c ? c.name + " " + key : "model";
+    });
   }
   for (const id of ["case", "colour", "ghost", "supports", "arrows", "names"])
     get(id).addEventListener("change", draw);
