@@ -52,3 +52,8 @@ def test_what_scenes_were_made_for_comes_back(first):
     # a pipe that is free to spin about itself is refused, which is right
     held = [what for what in ends.values() if what != "free"]
     assert sum(what != "refused" for what in held) >= 0.93 * len(held), ends
+
+
+def test_a_gap_that_friction_makes_decisive_costs_digits():
+    """One part of a gap moves a soft branch, which friction alone holds, by 1e8 parts."""
+    assert end(30451) == "told"

@@ -8,6 +8,7 @@ import pytest
 
 import trunnion
 from trunnion.deck.reader import read_text
+from trunnion.solver.coupled import gmres
 from trunnion.solver.ledger import Ledger
 from trunnion.solver.structure import Structure
 from trunnion.system import build_system
@@ -100,3 +101,17 @@ def test_an_undetermined_motion_is_told_where_double_double_takes_too_long(monke
     deck = Path(__file__).parents[2] / "models" / "floating_rests.inp"
     for case in trunnion.solve(trunnion.read(deck)).cases.values():
         assert case.certificate.passed
+
+
+def test_a_large_right_side_ends_no_iteration_early():
+    """What is solved for is in the unit of its forces: from 1 N to 1e14 N, the same solution."""
+    rng = np.random.default_rng(4)
+    a = np.eye(12) + np.outer(rng.normal(size=12), rng.normal(size=12)) * 0.01
+    b = rng.normal(size=(2, 6))
+
+    def product(v):
+        return (a @ v.ravel()).reshape(v.shape)
+
+    for size in (1e-9, 1.0, 1e14):
+        x = gmres(product, size * b, 1e-12, 60)
+        assert np.abs(product(x) - size * b).max() <= 1e-11 * size * np.abs(b).max()

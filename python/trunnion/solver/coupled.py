@@ -43,7 +43,7 @@ def gmres(product: Callable[[F8], F8], b: F8, sharp: float, limit: int) -> F8:
         column = kernels.orthogonalise(
             j + 1, basis, product(basis[j].reshape(b.shape)).ravel()
         ).tolist()
-        below = column[j + 1]
+        below, most = column[j + 1], max(map(abs, column))
         for i, (c, s) in enumerate(turns):
             column[i], column[i + 1] = (
                 c * column[i] + s * column[i + 1],
@@ -60,7 +60,7 @@ def gmres(product: Callable[[F8], F8], b: F8, sharp: float, limit: int) -> F8:
         h[: j + 1, j] = column[: j + 1]
         g[j], more = c * g[j], -s * g[j]
         g.append(more)
-        if abs(more) <= sharp * size or below <= 1e-15 * size:
+        if abs(more) <= sharp * size or below <= 1e-15 * most:
             break
     y = _back(h[:n, :n], g[:n])
     x = np.zeros(b.size)

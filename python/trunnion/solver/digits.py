@@ -88,7 +88,7 @@ def scatter_input(
     Every member's end forces are changed as a change of its stiffness by one part would do (rigid
     motion makes no force, so none is made of it), and so are those that would hold back its free
     deformation, the moments of its forces about its base (as its direction is rounded), the
-    forces of supports and the loads at nodes.
+    forces of supports, their directions and gaps, and the loads at nodes.
     """
     members = structure.members
     load = _scattered(point.u.size, 2).reshape(-1, 6) * forcing.nodal
@@ -98,13 +98,42 @@ def scatter_input(
             signs = _scattered(len(end), start)
             kernels.add_ends(members.ends, signs, members.d, at is point, end, load)
     pushed = _scattered(len(response.reaction), 3)[:, None] * response.reaction
+    pushed += _misplaced(structure, point, response)
     kernels.scatter(structure.at, pushed, load)
+    if (response.mode == SLIP).any():
+        kernels.scatter(structure.slider_at, _rubbed(structure, response, pushed), load)
     load[structure.absent] = 0.0
     p = structure.solve(load)
     loss = _loss(structure, load, p)
     if (response.mode == SLIP).any():
         p = coupled_step(structure, response, law, load)
     return Scattered(p, loss)
+
+
+def _misplaced(structure: Structure, point: Point, response: Response) -> F8:
+    """Change of contact forces (n_contact, 3) as directions and gaps are rounded.
+
+    A direction wrong by a part feels that part of any movement, also of one across it.  Where a
+    gap is closed, or a movement is imposed, the movement is that size itself.
+    """
+    moved = kernels.gather(structure.at, point.u)
+    moved *= _scattered(moved.size, 4).reshape(moved.shape)
+    force: F8 = np.einsum("cij,cj->ci", response.tangent, moved)
+    return force
+
+
+def _rubbed(structure: Structure, response: Response, pushed: F8) -> F8:
+    """Change of friction (n_slider, 3) where it slips and contact forces change by `pushed`."""
+    s = structure.sliders
+    owner = np.repeat(np.arange(len(s.mu)), np.diff(s.first))
+    push, more = np.zeros((2, len(s.mu), 3))
+    np.add.at(push, owner, response.reaction[s.contact])
+    np.add.at(more, owner, pushed[s.contact])
+    size = (push * push).sum(axis=1)
+    slips = (response.mode == SLIP) & (size > 0.0)
+    share = np.divide((push * more).sum(axis=1), size, out=np.zeros_like(size), where=slips)
+    force: F8 = share[:, None] * response.friction
+    return force
 
 
 def digits_left(
