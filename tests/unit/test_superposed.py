@@ -11,6 +11,7 @@ from frames import frame
 
 import trunnion
 from trunnion.certificate import certify
+from trunnion.certificate.scales import measure, measure_each
 from trunnion.certificate.sums import certify_sums
 from trunnion.deck.reader import read_text
 from trunnion.model import Case, Term
@@ -192,3 +193,13 @@ def test_what_cases_share_cannot_be_written_to():
     found = trunnion.solve(read_text(HEAD + "CASE A = T1\nCASE B = W\n", "deck.inp"))
     with pytest.raises(ValueError, match="read-only"):
         found["A"].loads.nodal[0] += 1.0
+
+
+@pytest.mark.parametrize("seed", SEEDS[:8])
+def test_sizes_of_many_answers_are_those_of_each(seed):
+    model = linear_frame(seed)
+    results = trunnion.solve(replace(model, cases=model.cases[:5]))
+    cases = [case for case in results.cases.values() if not len(case.state.friction)]
+    assert cases
+    found = measure_each(cases[0].system, [c.loads for c in cases], [c.state for c in cases])
+    assert list(found) == [measure(c.system, c.loads, c.state) for c in cases]

@@ -1,6 +1,10 @@
 """Denominators of the certificate: the natural sizes of forces and movements in one answer."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
 
 from trunnion.arrays import F8, Loads, State, System
 from trunnion.certificate.deformation import columns
@@ -29,6 +33,22 @@ def floor(own: float, kin: float) -> float:
     return max(own, kin) or 1.0
 
 
+class Peaks(NamedTuple):
+    """Largest numbers of one answer: forces [N], moments [N m], strain, displacements [m, rad]."""
+
+    push: float
+    torque: float
+    friction: float
+    load: float  # distributed, of an element
+    nodal_force: float
+    nodal_moment: float
+    end_force: float
+    end_moment: float
+    strain: float
+    move: float
+    turn: float
+
+
 def measure(system: System, loads: Loads, state: State) -> Scale:
     """Natural sizes of one answer.
 
@@ -39,18 +59,67 @@ def measure(system: System, loads: Loads, state: State) -> Scale:
     """
     turning = system.contacts.rotational
     some = bool(turning.any())
-    push = state.reaction[~turning] if some else state.reaction
-    load = columns(loads.dist) * system.length
     nodal, end = columns(loads.nodal), columns(state.end_force.reshape(-1, 6))
-    moment = largest(state.reaction[turning]) if some else 0.0
-    moment = max(moment, largest(nodal[3:], end[3:]))
-    stiff = system.rigidity[:, 0].copy()
-    held = float(stiff.min(where=stiff > 0.0, initial=1e12)) * largest(loads.strain)
-    kin = max(1e-4 * largest(end[:3]), 1e-4 * moment, 1e-6 * held)
-    force = largest(push, state.friction, load, nodal[:3])
-    force = floor(_real(force, 1e-6), _real(kin, 1e-6))
     u = columns(state.u)
-    length, angle = _real(largest(u[:3]), 1e-18), _real(largest(u[3:]), 1e-18)
+    return _scale(
+        softest(system),
+        Peaks(
+            largest(state.reaction[~turning] if some else state.reaction),
+            largest(state.reaction[turning]) if some else 0.0,
+            largest(state.friction),
+            largest(columns(loads.dist) * system.length),
+            largest(nodal[:3]),
+            largest(nodal[3:]),
+            largest(end[:3]),
+            largest(end[3:]),
+            largest(loads.strain),
+            largest(u[:3]),
+            largest(u[3:]),
+        ),
+    )
+
+
+def measure_each(
+    system: System, loads: Sequence[Loads], states: Sequence[State]
+) -> tuple[Scale, ...]:
+    """Natural sizes of several answers of one system without sliders, in one go."""
+    turning = system.contacts.rotational
+    reaction = np.abs(np.stack([s.reaction for s in states])).max(axis=2, initial=0.0)
+    load = np.abs(np.stack([own.dist for own in loads])).max(axis=2) * system.length
+    nodal, end, u = (
+        np.abs(np.stack(a)).reshape(len(states), -1, 2, 3).max(axis=(1, 3), initial=0.0)
+        for a in (
+            [own.nodal for own in loads],
+            [s.end_force for s in states],
+            [s.u for s in states],
+        )
+    )
+    rows = (
+        (reaction * ~turning).max(axis=1, initial=0.0),
+        (reaction * turning).max(axis=1, initial=0.0),
+        np.zeros(len(states)),
+        load.max(axis=1, initial=0.0),
+        *nodal.T,
+        *end.T,
+        np.abs(np.stack([own.strain for own in loads])).max(axis=1, initial=0.0),
+        *u.T,
+    )
+    soft = softest(system)
+    return tuple(_scale(soft, Peaks(*own)) for own in np.stack(rows, axis=1).tolist())
+
+
+def softest(system: System) -> float:
+    """Smallest axial rigidity EA of the elements that have one, at most 1e12 [N]."""
+    stiff = system.rigidity[:, 0].copy()
+    return float(stiff.min(where=stiff > 0.0, initial=1e12))
+
+
+def _scale(soft: float, peaks: Peaks) -> Scale:
+    moment = max(peaks.torque, peaks.nodal_moment, peaks.end_moment)
+    kin = max(1e-4 * peaks.end_force, 1e-4 * moment, 1e-6 * soft * peaks.strain)
+    force = max(peaks.push, peaks.friction, peaks.load, peaks.nodal_force)
+    force = floor(_real(force, 1e-6), _real(kin, 1e-6))
+    length, angle = _real(peaks.move, 1e-18), _real(peaks.turn, 1e-18)
     return Scale(
         force, max(moment, 0.01 * force), floor(length, 1e-3 * angle), floor(angle, 1e-3 * length)
     )

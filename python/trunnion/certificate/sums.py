@@ -18,7 +18,7 @@ from trunnion.arrays import F8, Certificate, Item, Loads, State, System
 from trunnion.certificate.deformation import columns
 from trunnion.certificate.elements import ALONG, SHAPE, ElementErrors, own_deformations, rows
 from trunnion.certificate.items import number, verdict
-from trunnion.certificate.scales import Scale, largest, measure
+from trunnion.certificate.scales import Scale, largest, measure_each
 
 ROUNDING = 16.0 * 2.0**-53  # of the largest number, of a sum or a product of a few
 MATCH = 1e-13  # of all sizes summed: checksums of rounded numbers agree so far
@@ -170,7 +170,7 @@ def _sizes(
         )
         for own, state in zip(loads, states, strict=True)
     ]
-    scales = [measure(some, *own) for own in few]
+    scales = measure_each(some, *zip(*few, strict=True))
     found = {
         name: np.array([getattr(scale, name) for scale in scales])
         for name in ("force", "moment", "length", "angle")

@@ -18,7 +18,7 @@ def explain(
     compared with mu N; where it cannot, the motions that nothing resists are named.
     """
     cause = solved.cause or "the iteration did not settle"
-    if "without bound" not in cause:
+    if not solved.unbounded:
         return cause
     needs = _needs(structure, sliding, forcing, history)
     if needs:

@@ -37,6 +37,7 @@ class Solved:
     response: Response
     sliding: Sliding
     cause: str | None = None
+    unbounded: bool = False  # nothing holds the pipe: it moves away
 
 
 def solve_step(
@@ -53,7 +54,7 @@ def solve_step(
     """
     start = point.copy()
     solved = _solve_step(structure, point, sliding, forcing, history, capacity)
-    if solved.settled or "without bound" not in (solved.cause or ""):
+    if not solved.unbounded:
         return solved
     structure.soft = True
     try:
@@ -80,8 +81,9 @@ def _solve_step(
     if capacity is None:
         outcome = without_friction(structure, point, free, forcing, history)
         if not has_friction:
-            cause = None if outcome.settled else _cause(outcome)
-            return Solved(outcome.settled, outcome.response, free, cause)
+            if outcome.settled:
+                return Solved(True, outcome.response, free)
+            return _unsettled(outcome, free)
         if outcome.settled:
             capacity = sliding.mu * outcome.response.normal
             outcome = smooth(structure, point, sliding, forcing, history, outcome, capacity)
@@ -89,7 +91,7 @@ def _solve_step(
     solved = None
     if capacity is not None:
         solved = renew(structure, point, _fixed(sliding, capacity), forcing, history)
-        if solved.settled or "without bound" in (solved.cause or ""):
+        if solved.settled or solved.unbounded:
             return solved
     point.become(start)
     outcome = all_stuck(structure, point, sliding, forcing, history)
@@ -188,7 +190,7 @@ def renew(
             what="capacities",
         )
         if not outcome.settled:
-            return Solved(False, outcome.response, sliding, _cause(outcome))
+            return _unsettled(outcome, sliding)
         new = sliding.mu * outcome.response.normal
         last, error = error, new - sliding.capacity
         change = float(np.abs(error).max(initial=0.0))
@@ -264,7 +266,8 @@ def force_scale(structure: Structure, forcing: Forcing) -> float:
     )
 
 
-def _cause(outcome: Outcome) -> str:
+def _unsettled(outcome: Outcome, law: Sliding) -> Solved:
+    cause = f"the iteration stopped with {outcome.residual:.3g} N out of balance"
     if outcome.runaway:
-        return "the pipe moves away without bound: a mechanism under this load"
-    return f"the iteration stopped with {outcome.residual:.3g} N out of balance"
+        cause = "the pipe moves away without bound: a mechanism under this load"
+    return Solved(False, outcome.response, law, cause, outcome.runaway)

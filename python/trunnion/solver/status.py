@@ -88,7 +88,7 @@ def solve_status(
     for i in range(passes):
         p = _pass(structure, point, trial, forcing, true, careful=bool((turns >= CHATTER).any()))
         if not np.abs(p).max() < RUNAWAY * structure.size:
-            return Solved(False, true, law, "the pipe moves away without bound")
+            return Solved(False, true, law, "the pipe moves away without bound", unbounded=True)
         before, true = true, structure.respond(point, law, forcing, scratch)
         history.add("status", float(np.abs(p).max()), 1.0, before, true)
         opened = (before.side == 0) != (true.side == 0)

@@ -96,14 +96,14 @@ def _step(span: Span, point: Point, plan: Plan, capacity: F8 | None) -> Solved:
 def _needs_digits(span: Span, solved: Solved) -> bool:
     """A factor with more digits is to be tried first: a ramp changes the answer."""
     structure = span.structure
-    if structure.extended is not None or "without bound" in (solved.cause or ""):
+    if structure.extended is not None or solved.unbounded:
         return False
     return is_lossy(structure, solved.response, span.target)
 
 
 def _fallbacks(span: Span, point: Point, first: Solved) -> Solved:
     """Ramping, then the status iteration with freezing; the first cause stands if all fail."""
-    if "without bound" in (first.cause or ""):
+    if first.unbounded:
         return first
     is_status = span.solve is solve_status
     short = partial(solve_status, passes=LAST_PASSES)
@@ -119,7 +119,7 @@ def _fallbacks(span: Span, point: Point, first: Solved) -> Solved:
                 "with friction this is the answer of a ramped load"
             )
             return solved
-        if "without bound" in (solved.cause or ""):
+        if solved.unbounded:
             return first
     if not is_status:
         solved = replace(span, solve=short).whole(point)
