@@ -704,6 +704,8 @@ def test_expansion_joints_have_rates_thrust_area_and_axis():
     assert one == Joint(8e4, 5e4, None, pytest.approx(90 * degree), pytest.approx(area))
     assert two == Joint(8e4, 5e4, pytest.approx(12 * degree), None, 0.0, (1.0, 0.0, 0.0))
     assert any("blank rates" in a.text for a in result.assumed)
+    c.arrays["EXPJT"][0] = (0.0, 500.0, 0.0, 90.0, 290.0)  # a hinge: its axial rate is left blank
+    assert next(p.joint for p in model_of(c).pipes if p.joint).axial == 1e12
     assert result.model.pipes[3].weight == 0.0
     assert result.model.pipes[1].weight > 0.0
 
