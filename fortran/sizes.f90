@@ -52,7 +52,7 @@ contains
       real(wp), intent(in) :: a, b
       real(wp) :: c
 
-      c = merge(a, b, a >= b .or. a /= a)
+      c = merge(a, b, a >= b .or. .not. a <= a)
    end function larger
 
 end module sizes

@@ -309,6 +309,23 @@ def test_skewed_cosines_make_a_vector_and_placeholders_do_not():
     assert (two.word, two.vector) == ("LIMIT", None)
 
 
+def test_the_stiffness_of_an_anchor_is_one_number_for_all_freedoms_and_said():
+    c = job()
+    stiff = slot(10, ANC, k=1e5)  # N/cm: 57 101.5 lb/in, and so many in-lb/deg
+    c.add(10, 20, dx=1000.0, RESTRANT=[stiff])
+    result = imported(c)
+    anchor = result.model.supports[0]
+    assert anchor.k == 1e7
+    assert anchor.kr == pytest.approx(57101.47 * 0.1129848 * 180 / math.pi, rel=1e-6)
+    assert any("all six freedoms" in a.text for a in result.assumed)
+
+
+def test_a_friction_beyond_all_bounds_is_named():
+    c = job()
+    c.add(10, 20, dx=1000.0, RESTRANT=[slot(10, ANC), slot(20, RESTING, cosines=Y, mu=5.0)])
+    assert "node 20: a friction coefficient of 5 is above 2" in " ".join(problems_of(c))
+
+
 def test_rigid_is_from_a_tenth_of_the_default_and_for_zero():
     c = job()
     codes = [slot(20, 2, k=0.0), slot(20, 3, k=1.7512e12), slot(20, 4, k=1.7e10)]
@@ -687,6 +704,8 @@ def test_expansion_joints_have_rates_thrust_area_and_axis():
     assert one == Joint(8e4, 5e4, None, pytest.approx(90 * degree), pytest.approx(area))
     assert two == Joint(8e4, 5e4, pytest.approx(12 * degree), None, 0.0, (1.0, 0.0, 0.0))
     assert any("blank rates" in a.text for a in result.assumed)
+    c.arrays["EXPJT"][0] = (0.0, 500.0, 0.0, 90.0, 290.0)  # a hinge: its axial rate is left blank
+    assert next(p.joint for p in model_of(c).pipes if p.joint).axial == 1e12
     assert result.model.pipes[3].weight == 0.0
     assert result.model.pipes[1].weight > 0.0
 

@@ -5,7 +5,7 @@ TRUNNION_FUZZ=10000 makes so many variants of each version; a failure prints its
 
 import pytest
 from input_xml import crowded, line
-from mutants import survive
+from mutants import round_trip, survive
 
 from trunnion.errors import DeckError, ModelError
 from trunnion.formats import Findings
@@ -15,7 +15,7 @@ from trunnion.formats.source import source_of
 
 def deck(data, permissive=False):
     source = source_of(data, "x.xml")
-    return read(source, Findings(source, permissive=permissive)).deck()
+    round_trip(read(source, Findings(source, permissive=permissive)))
 
 
 @pytest.mark.parametrize("version", ["7.00", "11.00", "14.00"])

@@ -7,6 +7,7 @@ import resource
 import signal
 from contextlib import contextmanager
 
+from trunnion.deck.reader import read_text
 from trunnion.errors import DeckError, ModelError
 
 MEMORY = 1_000_000  # KiB that a run over all variants may add to the process
@@ -31,6 +32,16 @@ def mutant(data: bytes, seed: int) -> bytes:
     for _ in range(rng.choice((1, 1, 1, 2, 3, 8))):
         data = rng.choice(_DAMAGES)(data, rng)
     return data
+
+
+def round_trip(imported):
+    """Write the deck of a foreign file; it reads as the same model, whatever the damage was."""
+    text = imported.deck()
+    try:
+        again = read_text(text)
+    except (DeckError, ModelError) as error:
+        raise AssertionError("the deck cannot be read") from error
+    assert again == imported.model
 
 
 def survive(data, read, usual):

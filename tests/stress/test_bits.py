@@ -15,14 +15,20 @@ import trunnion
 MODELS = Path(__file__).parents[2] / "models"
 
 
-@pytest.mark.parametrize("deck", ["rack_50", "hot_header"])
-def test_threads_and_processes_change_no_byte(deck, tmp_path):
+@pytest.mark.parametrize(
+    ("deck", "more"),
+    [("rack_50", ""), ("hot_header", ""), ("nr1677_v2_p1", ""), ("rack_200", "MODES 20\n")],
+    ids=["friction", "cases", "spectra", "modes by Lanczos"],  # the last two call BLAS
+)
+def test_threads_and_processes_change_no_byte(deck, more, tmp_path):
     written = []
+    file = tmp_path / f"{deck}.inp"
+    file.write_text((MODELS / file.name).read_text() + more)
     for threads in ("1", "2", "4", "1"):
         out = tmp_path / f"{len(written)}"
         env = os.environ | {f"{name}_NUM_THREADS": threads for name in ("OMP", "OPENBLAS", "MKL")}
         subprocess.run(
-            [sys.executable, "-m", "trunnion", "run", str(MODELS / f"{deck}.inp"), "-o", out],
+            [sys.executable, "-m", "trunnion", "run", str(file), "-o", out],
             check=True, env=env, capture_output=True,
         )  # fmt: skip
         written.append({path.name: path.read_bytes() for path in sorted(out.iterdir())})

@@ -36,7 +36,7 @@ def started(*arguments, log):
 
 @contextmanager
 def cluster(folder, n):
-    """Address and worker processes of a scheduler on this machine's loopback."""
+    """A scheduler on this machine's loopback: its address, its workers' processes, its own."""
     from contextlib import ExitStack
 
     file = folder / "scheduler.json"
@@ -58,7 +58,7 @@ def cluster(folder, n):
             while "Registered to" not in (folder / f"w{i}.log").read_text():
                 assert time.monotonic() < until, (folder / f"w{i}.log").read_text()
                 time.sleep(0.05)
-        yield json.loads(file.read_text())["address"], workers
+        yield json.loads(file.read_text())["address"], workers, scheduler
 
 
 def reports(folder):
@@ -74,7 +74,7 @@ def test_nothing_is_lost_when_one_of_two_workers_is_killed_midway(tmp_path):
     bad = folder / "bad.inp"
     bad.write_text("PIPE 10 20 DX=1\nSUPORT 20 +Y\n")
     out = tmp_path / "out"
-    with cluster(tmp_path, 2) as (address, workers):
+    with cluster(tmp_path, 2) as (address, workers, _):
         arguments = ["batch", *decks, bad, "-o", out, "--scheduler", address]
         batch = subprocess.Popen(
             [sys.executable, "-m", "trunnion", *map(str, arguments)],
@@ -93,6 +93,57 @@ def test_nothing_is_lost_when_one_of_two_workers_is_killed_midway(tmp_path):
         assert (out / "r00.json").stat().st_mtime_ns == written
     trunnion.batch(decks, tmp_path / "here")
     assert reports(out) == reports(tmp_path / "here")
+
+
+def killing(process, told):
+    """A listener that kills a process at the first deck that comes."""
+
+    def first(entry):
+        if not told:
+            process.kill()
+        told.append(entry)
+
+    return first
+
+
+def test_decks_without_any_worker_left_are_listed_and_solved_by_the_next(tmp_path, monkeypatch):
+    """Dask would wait for ever for an answer that died with the last worker."""
+    monkeypatch.setattr("trunnion.many.cluster.PATIENCE", 2.0)
+    decks = [shutil.copy(MODELS / "rack_50.inp", tmp_path / f"r{i:02d}.inp") for i in range(20)]
+    out, told, warnings = tmp_path / "out", [], []
+    with cluster(tmp_path, 1) as (address, workers, _):
+        done = trunnion.batch(
+            decks, out, scheduler=address, told=killing(workers[0], told), warned=warnings.append
+        )
+        solved = [entry for entry in done.entries if entry.status == "certified"]
+        left = [entry for entry in done.entries if entry.status == "internal error"]
+        assert solved
+        assert left
+        assert len(solved) + len(left) == len(decks)
+        assert {entry.causes for entry in left} == {("on the cluster: no worker for 2 s",)}
+        assert done.code == 3
+        assert (out / "batch-summary.json").exists()
+        assert len(warnings) == 1
+        assert f"no worker at {address}" in warnings[0]
+        own = ("--scheduler-file", tmp_path / "scheduler.json", "--nthreads", 1, "--no-nanny")
+        kind = "distributed.cli.dask_worker"
+        with started(kind, *LOCAL, *own, log=tmp_path / "next.log"):
+            monkeypatch.setattr("trunnion.many.cluster.PATIENCE", 60.0)
+            again = trunnion.batch(decks, out, scheduler=address)
+    assert again.code == 0
+    assert [entry.skipped for entry in again.entries].count(True) == len(solved)
+
+
+def test_decks_that_a_scheduler_took_with_it_are_listed(tmp_path):
+    decks = [shutil.copy(MODELS / "rack_50.inp", tmp_path / f"r{i:02d}.inp") for i in range(20)]
+    with cluster(tmp_path, 1) as (address, _, scheduler):
+        done = trunnion.batch(
+            decks, tmp_path / "out", scheduler=address, told=killing(scheduler, [])
+        )
+    left = [entry for entry in done.entries if entry.status == "internal error"]
+    assert left
+    assert done.code == 3
+    assert all("scheduler went away" in entry.causes[0] for entry in left)
 
 
 def test_a_scheduler_that_does_not_answer_is_named(tmp_path, monkeypatch):

@@ -80,7 +80,7 @@ def test_a_plain_run_imports_nothing_of_modes_spectra_and_hdf5(plain):
         (PLAIN, ("--xlsx",), "xlsxwriter"),
         (PLAIN, ("--png",), "matplotlib.figure"),
         (PLAIN, ("--vtu",), "pyevtk.hl"),
-        (PLAIN + "CASE OPE = W + T1\nMODES 2 ABOUT=OPE\n", (), "scipy.sparse"),
+        (PLAIN + "CASE OPE = W + T1\nMODES 2 ABOUT=OPE\n", (), "scipy.sparse, threadpoolctl"),
     ],
     ids=["unit", "size", "hdf5", "excel", "png", "vtk", "modes"],
 )

@@ -33,6 +33,7 @@ from trunnion.solver.supportmotion import (
     participation,
     recover,
 )
+from trunnion.threads import one_thread
 
 AXES = {"X": 0, "Y": 1, "Z": 2}
 NAMES = ("u", "end_force", "local_force", "reaction", "card_force")
@@ -74,6 +75,7 @@ class SpectrumPass:
         inertia = m.shape * ((2.0 * np.pi * m.frequency) ** 2)[:, None, None]
         return recover(self.pencil, m, self.system, m.shape, m.shape_low, inertia)
 
+    @one_thread()
     def solve(self, case: Case) -> CaseResult:
         """Solve one response spectrum case.
 

@@ -82,6 +82,7 @@ def batch(
                 redo=redo,
                 told=told,
                 tick=counter.tick,
+                warned=counter.say,
             )
         except KeyboardInterrupt:
             click.echo("interrupted: finished decks stay, the same command goes on", err=True)

@@ -25,6 +25,7 @@ from trunnion.model import Case
 from trunnion.report.json_modes import mode_entries
 from trunnion.solver.eigen import residuals
 from trunnion.solver.mesh import Mesh
+from trunnion.threads import one_thread
 
 if TYPE_CHECKING:
     from trunnion.cases.analysis import Run
@@ -89,6 +90,7 @@ def _table(rows: Sequence[Sequence[float]]) -> F8:
     return np.array(rows, np.float64).reshape(-1, 3)
 
 
+@one_thread()
 def judge_dynamics(
     run: "Run", report: Stored, spectra: Sequence[Case]
 ) -> tuple[Verdict, dict[str, Verdict]]:

@@ -54,6 +54,7 @@ def batch(
     redo: bool = False,
     told: Told | None = None,
     tick: Callable[[], None] | None = None,
+    warned: Callable[[str], None] | None = None,
 ) -> Batch:
     """Solve many decks, each in a process of its own; write their reports and a summary.
 
@@ -67,6 +68,7 @@ def batch(
     scheduler : address of a Dask scheduler whose workers solve instead of own processes.
     redo : solve finished decks again.
     told : called with every entry as it comes; tick : called now and then.
+    warned : called with what holds a batch up: a cluster without workers.
 
     Raises
     ------
@@ -91,7 +93,7 @@ def batch(
         else:
             from trunnion.many.cluster import solve_there
 
-            ends = solve_there(todo, place, settings, scheduler, tick)
+            ends = solve_there(todo, place, settings, scheduler, tick, warned)
         with closing(ends):
             for entry in ends:
                 found[entry.stem] = entry

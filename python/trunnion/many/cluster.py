@@ -1,12 +1,14 @@
 """A batch on a Dask cluster: models go out, reports come back; the client alone touches files.
 
 So workers need Trunnion of the same version and nothing else, no shared folder.  Dask gives the
-decks of a worker that is lost to others; one at which several workers died is reported.
+decks of a worker that is lost to others; one at which several workers died is reported.  Where no
+worker is left, or none comes, Dask would wait for ever: here it is said, and has an end.
 """
 
 from collections.abc import Callable, Generator, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
-from time import sleep
+from time import monotonic, sleep
 from typing import TYPE_CHECKING, Any
 
 from trunnion.errors import BatchError, DeckError, ModelError
@@ -26,6 +28,8 @@ if TYPE_CHECKING:
 
 TICK = 0.05  # between two looks at what is done [s]
 ANSWERS = "10s"  # a scheduler that does not within is not there
+LOOK = 1.0  # between two looks at who is there [s]
+PATIENCE = 300.0  # without any worker [s]; a cluster that grows takes minutes to start one
 
 Sent = tuple[Path, dict[str, str]]
 
@@ -36,6 +40,7 @@ def solve_there(
     settings: Settings,
     address: str,
     tick: Callable[[], None] | None,
+    warned: Callable[[str], None] | None = None,
 ) -> Generator[Entry, None, None]:
     """Give the entries of decks as they come; leaving early cancels what is not done."""
     client = _connect(address)
@@ -53,8 +58,14 @@ def solve_there(
                 continue
             future = client.submit(solve_remote, model, deck.name, dict(settings), pure=False)
             sent[future] = deck, marks
+        crew = _Crew(client, address, warned)
         while sent:
-            for future in _ready(sent, client, tick):
+            lack = crew.lack(len(sent))
+            if lack:
+                for deck, _ in sent.values():
+                    yield _unsolved(deck, lack)
+                break
+            for future in _ready(sent, tick):
                 entry = _take(future, *sent[future], folder, settings)
                 if entry is not None:
                     del sent[future]
@@ -89,22 +100,49 @@ def _connect(address: str) -> "Client":
         raise BatchError(f"no Dask scheduler answers at {address}: {error}") from error
 
 
-def _ready(
-    sent: "dict[Future, Sent]", client: "Client", tick: Callable[[], None] | None
-) -> "list[Future]":
-    """Wait a moment for futures that are done.
+@dataclass(slots=True)
+class _Crew:
+    """Who is there to solve, looked at now and then."""
 
-    Raises
-    ------
-    BatchError
-        The scheduler went away.
-    """
+    client: "Client"
+    address: str
+    warned: Callable[[str], None] | None
+    looked: float = field(default_factory=monotonic)
+    seen: float = field(default_factory=monotonic)  # a worker, for the last time
+    alone: bool = False
+
+    def lack(self, left: int) -> str:
+        """Why nobody will solve what is left any more; empty while somebody may."""
+        if self.client.status not in ("running", "connecting"):
+            return "the scheduler went away"
+        now = monotonic()
+        if now - self.looked < LOOK:
+            return ""
+        self.looked = now
+        try:
+            some = self.client.status == "running" and bool(self.client.nthreads())
+        except (OSError, TimeoutError):  # the scheduler does not answer: it is looked at again
+            some = False
+        if some:
+            self.seen = now
+        elif not self.alone and self.warned is not None:
+            self.warned(
+                f"no worker at {self.address}: {left} decks wait, for {PATIENCE:g} s at the most"
+            )
+        self.alone = not some
+        return f"no worker for {PATIENCE:g} s" if now - self.seen > PATIENCE else ""
+
+
+def _ready(sent: "dict[Future, Sent]", tick: Callable[[], None] | None) -> "list[Future]":
+    """Wait a moment for futures that are done."""
     sleep(TICK)
     if tick is not None:
         tick()
-    if client.status not in ("running", "connecting"):
-        raise BatchError(f"the Dask scheduler went away with {len(sent)} decks unsolved")
     return [future for future in sent if future.done()]
+
+
+def _unsolved(deck: Path, cause: str) -> Entry:
+    return Entry(deck.stem, deck.name, INTERNAL, causes=(f"on the cluster: {cause}",))
 
 
 def _take(
@@ -121,7 +159,7 @@ def _take(
         error: Any = future.exception() if status == "error" else None
         lost = f"{status}: the scheduler went away or gave it up"
         cause = f"{type(error).__name__}: {error}" if error is not None else lost
-        return Entry(deck.stem, deck.name, INTERNAL, causes=(f"on the cluster: {cause}",))
+        return _unsolved(deck, cause)
     try:
         answer: tuple[Entry, dict[str, bytes]] = future.result()
         entry, reports = answer

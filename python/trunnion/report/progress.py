@@ -55,6 +55,13 @@ class Counter:
         progress, task = self.bar
         progress.update(task, completed=self.done, refresh=True)
 
+    def say(self, text: str) -> None:
+        """Say what the user must know at once; it stays above the bar."""
+        if self.bar is None:
+            print(text, file=sys.stderr, flush=True)
+        else:
+            self.bar[0].console.print(text, markup=False, highlight=False)
+
     def _shows(self) -> bool:
         return monotonic() - self.begun > LASTS
 

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from trunnion.arrays import F8
 from trunnion.solver.pencil import Pencil
 from trunnion.solver.quantities import Point
+from trunnion.threads import one_thread
 
 CLUSTER = 1e-7  # relative distance of eigenvalues that are one
 CORRECTIONS = 6
@@ -49,18 +50,19 @@ def many(pencil: Pencil, k: int, known: F8) -> tuple[F8, F8]:
         more["rng"] = np.random.default_rng(1)
     missing = k - len(known)
     start = np.random.default_rng(2).normal(size=n)
-    value, vector = eigsh(
-        LinearOperator((n, n), matvec=solve, dtype=np.float64),  # its shape alone is used
-        missing,
-        M=pencil.mass_matrix,
-        sigma=-pencil.shift,
-        OPinv=LinearOperator((n, n), matvec=solve, dtype=np.float64),
-        v0=solve(pencil.mass_product(start[None])[0]),
-        ncv=min(n, 3 * missing + 20),
-        tol=1e-11,
-        maxiter=1000,
-        **more,
-    )
+    with one_thread():  # SciPy has a BLAS of its own
+        value, vector = eigsh(
+            LinearOperator((n, n), matvec=solve, dtype=np.float64),  # its shape alone is used
+            missing,
+            M=pencil.mass_matrix,
+            sigma=-pencil.shift,
+            OPinv=LinearOperator((n, n), matvec=solve, dtype=np.float64),
+            v0=solve(pencil.mass_product(start[None])[0]),
+            ncv=min(n, 3 * missing + 20),
+            tol=1e-11,
+            maxiter=1000,
+            **more,
+        )
     del value
     x = np.concatenate((known, np.ascontiguousarray(vector.T)))
     x = pencil.solve(pencil.mass_product(x))  # takes out what has no mass

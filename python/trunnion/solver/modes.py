@@ -9,6 +9,7 @@ from trunnion.errors import ModelError, Problem
 from trunnion.solver.eigen import correct, few, many, separate
 from trunnion.solver.mesh import Mesh, whole_mesh
 from trunnion.solver.pencil import DENSE, Pencil
+from trunnion.threads import one_thread
 
 SPARE = 3  # modes beyond those asked for, to find a gap behind them
 ROUNDS = 8
@@ -17,6 +18,7 @@ GAP = 1e-5  # relative, between modes that a Sturm count can tell apart
 FREEDOMS = ("X", "Y", "Z", "RX", "RY", "RZ")
 
 
+@one_thread()
 def natural_modes(
     pencil: Pencil,
     n: int,

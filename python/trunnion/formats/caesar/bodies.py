@@ -80,13 +80,13 @@ class Bodies:
             self.findings.fault(data.line, text)
             return pipe
         long = size(e.delta) > 0.0
-        if not all(rates[1:]):
+        if not all(rates):
             text = f"element {e.start}-{e.end}: blank rates of the expansion joint are rigid"
             text += ", or follow from the other of lateral and bending rate" if long else ""
             self.findings.assume(text, data.line)
         axis = None if long else self._axis(e)
         joint = Joint(
-            data.axial,
+            data.axial or self.model.settings.k,
             data.transverse or None,
             data.bending or None,
             data.torsional or None,

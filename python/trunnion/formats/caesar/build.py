@@ -116,8 +116,8 @@ def _assume(job: Job, model: Model, findings: Findings) -> None:
     text = "the file has no load cases: the default ones, SUS, OPE and EXP, are taken"
     findings.assume(text)
     if model.settings.stiffen != "OFF":
-        text = "pressure stiffens bends by the largest pressure (STIFFEN=MAX), as in the program"
-        findings.assume(text)
+        text = "pressure stiffens bends by the largest pressure (STIFFEN=MAX), as by default in "
+        findings.assume(f"{text}the program")
     if job.bourdon is None and any(p for pipe in model.pipes for p in pipe.operation.p.values()):
         text = (
             "the file does not say whether Bourdon effects of pressure are on: off, as by default"

@@ -9,6 +9,7 @@ from trunnion.formats.findings import Findings
 from trunnion.model import Direction
 
 _AXES = "XYZ"
+MOST_FRICTION = 2.0  # as in a deck
 FLAT = 1e-4  # an element with less of its length in the plane of the ground is a riser
 _X, _Y, _Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 
@@ -28,6 +29,9 @@ class Directions:
             word, r = self._stand_in(r)
             if not word:
                 return []
+        if r.mu > MOST_FRICTION:
+            text = f"node {r.node}: a friction coefficient of {r.mu:g} is above {MOST_FRICTION:g}"
+            self.findings.fault(r.line, text)
         if word in ("+LIM", "-LIM"):
             return self._one_sided(e, r, word)
         node = int(label.rstrip("NMF"))

@@ -3,14 +3,17 @@
 import re
 from collections import Counter
 from collections.abc import Iterator
+from math import pi
 
 from trunnion.formats.caesar.codes import name_of
 from trunnion.formats.caesar.directions import Directions
 from trunnion.formats.caesar.geometry import Labels
 from trunnion.formats.caesar.job import Element, Job, Restraint
+from trunnion.formats.caesar.units import INCH, clean
 from trunnion.formats.findings import Findings
 from trunnion.model import Direction, Model, Support
 
+BY_DEGREE = INCH**2 * 180.0 / pi  # in-lb/deg for lb/in, in SI [m2]
 _TAG = re.compile(r"[^\s=!&(),\"']{1,64}")
 
 
@@ -61,7 +64,10 @@ class Restraints:
         together: list[tuple[Restraint, Direction]] = []
         for r, d in members:
             if d.word == "ANC":
-                kr = d.k  # one number for all six freedoms
+                kr = None if d.k is None else clean(BY_DEGREE * d.k)
+                if kr is not None:
+                    text = "the stiffness of an anchor is that of all six freedoms, one number in "
+                    self.findings.assume(f"{text}lb/in and in-lb/deg", r.line)
                 made = Support(label, "anchor", (), cnode, name, d.k, kr, place=place)
             elif d.word.startswith("SNB"):
                 free = Direction(d.word[3:], d.vector)
