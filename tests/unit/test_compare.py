@@ -553,6 +553,25 @@ def test_a_bend_shows_the_ends_at_its_far_point(home, capsys):
     assert capsys.readouterr().out.count("30F-40 from") == 1
 
 
+def test_stored_numbers_are_shown_in_other_units(home, capsys):
+    assert leave("show", "a.json", "--case", "OPE", "--node", "40", "--units", "in LBF") == 0
+    out = capsys.readouterr().out
+    case = json.loads((home / "a.json").read_bytes())["cases"]["OPE"]
+    rest = next(s for s in case["supports"] if s["id"] == "40")
+    assert "DX [in]" in out
+    assert "MX [lbf.in]" in out
+    assert f" {rest['force'][1] / 4.4482216152605:.1f} " in out
+    assert f" {case['nodes']['40'][0] / 0.0254:.5f} " in out
+    assert leave("show", "a.json", "--units", "ft kN") == 0
+    assert " kN at " in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("units", ["in", "lbf in", "in lbf psi", "", "furlong N"])
+def test_units_that_are_none_are_refused(home, units, capsys):
+    assert leave("show", "a.json", "--units", units) == 2
+    assert "write a length and a force" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize("wrong", [("--case", "XXX"), ("--node", "XXX")])
 def test_an_unknown_case_or_node_is_refused(home, wrong, capsys):
     assert leave("show", "a.json", *wrong) == 2
@@ -560,7 +579,7 @@ def test_an_unknown_case_or_node_is_refused(home, wrong, capsys):
 
 
 def test_colour_is_for_terminals_and_the_file_cannot_steer_one():
-    from trunnion.report.stored import summary_text
+    from trunnion.report.stored import Look, summary_text
 
-    text = summary_text({"title": "a\x1b[2Jb", "cases": {}})
+    text = summary_text({"title": "a\x1b[2Jb", "cases": {}}, Look())
     assert "\x1b[2J" not in text

@@ -1,5 +1,6 @@
 """The HTML report in a real browser, and what of it needs none."""
 
+import dataclasses
 import json
 import re
 import subprocess
@@ -633,6 +634,18 @@ def test_anchors_leave_thick_pipes_to_be_seen_and_node_marks_long_lines(tmp_path
     assert found["thick"][1] is False
     assert 0.61 < found["thick"][0] < 2 * 0.61  # the block of the first anchor, across
     assert found["long"][1] is True  # of the colours of the pipe
+
+
+def test_many_cases_are_counted_in_the_head_and_those_that_failed_named(results, model):
+    cases = dict(results.cases)
+    ope = cases["OPE"]
+    for i in range(30):
+        cases[f"X{i}"] = dataclasses.replace(ope, name=f"X{i}")
+    many = dataclasses.replace(results, cases=cases)
+    head = html.files(many, model, "a")["a.html"].decode().partition("</header>")[0]
+    assert "32 of 33 cases certified" in head
+    assert '">OFF</span>' in head
+    assert '">X7</span>' not in head
 
 
 def test_a_picture_of_many_elements_has_few_points_on_each():

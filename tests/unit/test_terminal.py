@@ -305,3 +305,13 @@ def test_a_pipe_gets_the_table_of_a_batch_whole(tmp_path):
     )  # fmt: skip
     head = next(row for row in found.sent.splitlines() if row.split()[:1] == ["DECK"])
     assert head.split() == ["DECK", "STATUS", "CASES", "GOOD", "WORST", "WARNINGS"]
+
+
+def test_stored_tables_go_on_below_on_a_narrow_terminal(tmp_path):
+    assert on_terminal(["run", line(tmp_path), "-o", tmp_path]).code == 0
+    found = on_terminal(["show", tmp_path / "line.json", "--case", "C00"], size=(60, 60))
+    heads = [row for row in found.screen if row.split()[:1] in (["ID"], ["NODE"])]
+    assert max(map(len, heads)) <= 60
+    assert sum("MZ [N.m]" in row for row in heads) == 1
+    assert sum("RZ [deg]" in row for row in heads) == 1
+    assert all(row.strip() for row in found.screen[: len(heads)])

@@ -104,7 +104,7 @@ def _cycle(
             yield Change(name, what, str(old[what]), str(new[what]), weight)
     steps = [dict(zip(c["steps"], c.get("states") or (), strict=False)) for c in (old, new)]
     moved = False
-    for step in steps[0].keys() & steps[1].keys():
+    for step in [name for name in steps[0] if name in steps[1]]:
         place = f"{name} step {step}"
         for change in changed_numbers(
             place, numbers_of(steps[0][step]), numbers_of(steps[1][step]), tolerance
