@@ -88,7 +88,8 @@ def scatter_input(
     Every member's end forces are changed as a change of its stiffness by one part would do (rigid
     motion makes no force, so none is made of it), and so are those that would hold back its free
     deformation, the moments of its forces about its base (as its direction is rounded), the
-    forces of supports, their directions and gaps, and the loads at nodes.
+    forces of supports and the loads at nodes.  Where supports slide, their directions and gaps are
+    changed, too: what that adds to a normal force, friction passes on to pipes of any softness.
     """
     members = structure.members
     load = _scattered(point.u.size, 2).reshape(-1, 6) * forcing.nodal
@@ -98,14 +99,15 @@ def scatter_input(
             signs = _scattered(len(end), start)
             kernels.add_ends(members.ends, signs, members.d, at is point, end, load)
     pushed = _scattered(len(response.reaction), 3)[:, None] * response.reaction
-    pushed += _misplaced(structure, point, response)
     kernels.scatter(structure.at, pushed, load)
-    if (response.mode == SLIP).any():
-        kernels.scatter(structure.slider_at, _rubbed(structure, response, pushed), load)
     load[structure.absent] = 0.0
     p = structure.solve(load)
     loss = _loss(structure, load, p)
     if (response.mode == SLIP).any():
+        more = _misplaced(structure, point, response)
+        kernels.scatter(structure.at, more, load)
+        kernels.scatter(structure.slider_at, _rubbed(structure, response, pushed + more), load)
+        load[structure.absent] = 0.0
         p = coupled_step(structure, response, law, load)
     return Scattered(p, loss)
 
