@@ -81,6 +81,7 @@ debug-test: $(READY)
 # The editable package would rebuild itself on import; here it is done once, before anything runs.
 # Its importer reads bytecode but never writes any: without compileall every run compiles anew.
 build: $(READY)
+	@test -f build/editable/build.ninja || .ci/setup
 	@log=$$($(BIN)/ninja -C build/editable 2>&1) || { printf '%s\n' "$$log"; exit 1; }
 	@$(BIN)/python -m compileall -q python/trunnion
 
