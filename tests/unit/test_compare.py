@@ -9,6 +9,8 @@ from pathlib import Path
 import pytest
 from program import leave, stored
 
+from trunnion.compare import numbers
+
 MODELS = Path(__file__).parents[2] / "models"
 DECK = """\
 TITLE    Line on rests
@@ -415,6 +417,20 @@ def test_a_changed_load_of_a_result_is_named_in_per_cent(change, capsys):
     assert out.startswith("OPE support ")
     assert "FX 1000 N -> 1120 N (+12 %)" in out
     assert len(out.splitlines()) == 1
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "said"),
+    [
+        (1000.0, 1120.0, "+12 %"),
+        (-1000.0, -1120.0, "+12 %"),
+        (-4996.1, -2763.3, "-44.7 %"),
+        (1000.0, -500.0, "-150 %"),
+        (0.0, 1.0, ""),
+    ],
+)
+def test_per_cent_tell_growth_in_either_direction(before, after, said):
+    assert numbers.share(before, after) == said
 
 
 def test_a_tolerance_lets_small_changes_pass(change):

@@ -75,8 +75,8 @@ def shown(value: float, kind: str, other: float) -> str:
 
 
 def share(before: float, after: float) -> str:
-    """Change in per cent, where there is something to take it of."""
+    """Change in per cent of the value before: less is -, the other sign below -100."""
     if before == 0.0 or math.isclose(after, 0.0, abs_tol=0.0):
         return ""
-    share = 100.0 * (after - before) / abs(before)
+    share = 100.0 * (after - before) / before
     return f"{share:+.3g} %" if abs(share) < 1000.0 else ""
