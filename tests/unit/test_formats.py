@@ -8,10 +8,12 @@ import json
 import os
 import sys
 import types
+from pathlib import Path
 
 import pytest
 from program import leave
 
+import trunnion
 from trunnion.commands import shared
 from trunnion.deck.reader import read_text
 from trunnion.errors import DeckError
@@ -19,6 +21,7 @@ from trunnion.formats import FORMATS, Format, read_any
 from trunnion.formats.source import source_of
 from trunnion.model import Material, Model, Operation, Pipe, Section, Support, Units
 
+SAMPLES = Path(__file__).parents[2] / "models" / "foreign"
 GOOD = "TOY 1\nLENGTH 6000\n"
 ODD = "TOY 1\nLENGTH 6000\nODD bellows\nODD nozzle\n"
 
@@ -193,6 +196,24 @@ def test_contents_decide_and_a_wrong_suffix_is_named(home):
     (home / "b.txt").write_text("something else\n")
     with pytest.raises(DeckError, match="no file of a known format"):
         read_any("b.txt")
+
+
+@pytest.mark.parametrize(
+    ("sample", "kind"),
+    [
+        ("hot_line_11.cii", ".cii"),
+        ("skid_line_14.00.xml", ".xml"),
+        ("plant_line.pcf", ".pcf"),
+    ],
+)
+def test_a_file_of_another_program_read_as_a_deck_is_one_error(sample, kind, home):
+    """Not one of every line: seven hundred of a neutral file."""
+    data = (SAMPLES / sample).read_bytes()
+    for name, how in (("a.inp", rf"call it \*{kind}"), (f"a{kind}", "formats.read_any reads it")):
+        (home / name).write_bytes(data)
+        with pytest.raises(DeckError, match=how) as caught:
+            trunnion.read(name)
+        assert len(caught.value.problems) == 1
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,7 @@
 """Decks to models: every card to a record, every record to the model, all errors at once."""
 
 import os
+import re
 from typing import Any
 
 from trunnion.collector import paused
@@ -22,6 +23,12 @@ from trunnion.origin import InputFile
 
 _FIRST = ("TITLE", "UNITS", "DEFAULT")
 _FORMS = {name: keyword.form for name, keyword in KEYWORDS.items()}
+#: how files of other programs begin, by suffix, where no deck does
+_OPENINGS = {
+    ".cii": r"#\$",
+    ".xml": r"(?i)<(\?xml|CAESARII)",
+    ".pcf": r"(?i)<?(ISOGEN-FILES|UNITS-|PIPELINE-REFERENCE)",
+}
 _LONGEST = 400  # characters of a message; a word of a deck may be very long
 
 
@@ -58,7 +65,7 @@ def _read(deck: Deck) -> Model:
     reading = _Reading(deck)
     reading.run()
     if reading.faults or deck.refusals:
-        raise DeckError(_problems(deck, reading.faults))
+        raise DeckError(_foreign(deck) or _problems(deck, reading.faults))
     if deck.digests:
         reading.model.file = InputFile(os.path.basename(deck.file), deck.digest)
     return reading.model
@@ -181,6 +188,19 @@ def _items(text: str) -> list[Any]:
             key, _, value = item.partition("=")
             items[i] = (key.upper(), value)
     return items
+
+
+def _foreign(deck: Deck) -> list[Problem]:
+    """Name a file of another program as such, where every line of it would be an error."""
+    card = next(iter(deck.cards), None)
+    text = card.text if card else ""
+    kind = next((end for end, opening in _OPENINGS.items() if re.match(opening, text)), None)
+    if card is None or kind is None:
+        return []
+    end = os.path.splitext(deck.file)[1].lower()
+    how = "trunnion.formats.read_any reads it" if end == kind else f"call it *{kind}"
+    text = f"this is no deck but begins as a file of another program ({kind}); {how}"
+    return [Problem(card.place, text, show(card, 0))]
 
 
 def _problems(deck: Deck, faults: list[Fault]) -> list[Problem]:
