@@ -758,3 +758,18 @@ def test_decimal_commas_are_read_where_the_whole_file_has_them(load):
     result = load(commas)
     assert result.model == whole.model
     assert any("decimal commas" in a.text for a in result.assumed)
+
+
+@pytest.mark.parametrize("meaning", ["", '[attributes]\nPIPELINE-TEMP = "T2"\n'])
+def test_a_temperature_of_the_header_is_taken_or_named(load, meaning):
+    head = HEADER.rstrip("\n") + "\n    PIPELINE-TEMP 180\n"
+    found = load(everything().replace(HEADER, head, 1), TABLE + meaning)
+    said = [a.text for a in found.assumed if "PIPELINE-TEMP" in a.text]
+    hot = {pipe.operation.t.get("2") for pipe in found.model.pipes}
+    if meaning:
+        assert said == []
+        assert hot == {180.0}
+    else:
+        text = "PIPELINE-TEMP 180 is not read; give it a meaning under [attributes]"
+        assert said == [f"{text} of the side table"]
+        assert hot == {None}

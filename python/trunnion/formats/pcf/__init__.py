@@ -16,6 +16,7 @@ from trunnion.formats.pcf.attach import Attached, attach_masses, attach_olets, a
 from trunnion.formats.pcf.blocks import blocks
 from trunnion.formats.pcf.bores import Bores, decide
 from trunnion.formats.pcf.network import MAX_PARTS, Network, Places, build
+from trunnion.formats.pcf.operations import say_unread
 from trunnion.formats.pcf.parts import Line, Part, read_line
 from trunnion.formats.pcf.points import Point
 from trunnion.formats.pcf.properties import Resolver
@@ -54,6 +55,7 @@ def read(source: Source, findings: Findings) -> Imported:
     )
     resolver = Resolver(model, line, bores, table, findings)
     parts, supports, anchors = _sorted_out(line, findings)
+    say_unread(parts, table.attributes, findings)
     _halt(resolver, parts, findings)
     forms = [f for f in (form_of(p, tolerance, findings) for p in parts) if f is not None]
     _halt(resolver, parts, findings)
@@ -163,7 +165,9 @@ def _sorted_out(line: Line, findings: Findings) -> tuple[list[Part], list[Part],
         seen.add(key)
         kept.append(part)
     if twice:
-        findings.assume(f"{twice} records that repeat another one were dropped")
+        one = "1 record that repeats another one was dropped"
+        many = f"{twice} records that repeat another one were dropped"
+        findings.assume(one if twice == 1 else many)
     if line.skipped:
         text = ", ".join(f"{n} {word}" for word, n in sorted(line.skipped.items()))
         findings.assume(f"symbols without structure were skipped: {text}")

@@ -1,12 +1,16 @@
 """Temperatures and pressures: every pipe has the same sets, and who lacks one is named."""
 
-from collections.abc import Collection
+import re
+from collections.abc import Collection, Mapping, Sequence
 
 from trunnion.formats.findings import Findings
 from trunnion.formats.pcf.network import Run
 from trunnion.formats.pcf.parts import Part
 from trunnion.formats.pcf.properties import Properties
 from trunnion.model import Operation
+
+#: beginnings of what a header says of temperature and pressure, in whatever units
+_HEADS = ("PIPELINE-TEMP", "DESIGN-TEMP", "DESIGN-PRES", "OPERATING-TEMP", "OPERATING-PRES")
 
 
 def one_operation(
@@ -41,3 +45,16 @@ def _say_cold(name: str, what: str, parts: Collection[Part], findings: Findings)
     if first is not None:
         more = f" and of {len(parts) - 1} more" if len(parts) > 1 else ""
         findings.assume(f"{name} of {first.name}{more} is not given: they {what}", first.line)
+
+
+def say_unread(parts: Sequence[Part], meanings: Mapping[str, str], findings: Findings) -> None:
+    """Name temperatures and pressures of a header that the side table gives no meaning."""
+    unread = {
+        (a.name, a.value): a
+        for part in reversed(parts)
+        for a in reversed(part.shared)
+        if a.name.startswith(_HEADS) and a.name not in meanings and re.search("[1-9]", a.value)
+    }
+    for a in unread.values():
+        text = f"{a.name} {a.value[:40]} is not read; give it a meaning under [attributes]"
+        findings.assume(f"{text} of the side table", a.line)
