@@ -6,6 +6,7 @@ import re
 import subprocess
 from base64 import b64decode
 from io import BytesIO
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -446,6 +447,19 @@ def test_paper_shows_the_model_as_it_is_seen(parts_browser, tmp_path, wide):
         assert coloured(page[:, int(0.97 * across) :]) < 1e-3
     assert (np.abs(first - second)[middle].max(axis=2) > 0.2).mean() > 0.002
     assert left == 1  # the canvas for paper has gone
+
+
+@pytest.mark.parametrize("sample", ["hot_line_11.cii", "skid_line_14.00.xml"])
+def test_the_first_sheet_of_a_foreign_file_has_its_model_too(sample, tmp_path):
+    """Below five and nine lines of what was assumed, in the lower half of the sheet."""
+    deck = Path(__file__).parents[2] / "models" / "foreign" / sample
+    assert leave("run", deck, "-o", tmp_path, "--html") == 0
+    with chromium() as driver:
+        opened(driver, tmp_path / f"{deck.stem}.html", "OPE1 move")
+        first = printed(driver, tmp_path)
+    high, across = first.shape[:2]
+    lower = np.s_[int(0.5 * high) : int(0.95 * high), int(0.2 * across) : int(0.9 * across)]
+    assert coloured(first[lower]) > 0.003
 
 
 def test_the_picture_ends_where_the_window_of_a_laptop_does(parts_browser):

@@ -466,12 +466,17 @@ const DATA = JSON.parse(document.getElementById("data").textContent);
     Plotly.relayout(stage, { "scene.camera": camera() });
   });
   /* a canvas of WebGL prints empty: a plain one takes its pixels and place, as wide as the paper */
-  const paper = document.createElement("canvas"), WIDE = 1258, HIGH = 600;
+  const paper = document.createElement("canvas"), WIDE = 1258, HIGH = 600, LOW = 300;
+  /* a short account of the file fits on the first sheet with a lower picture, a long one has it to itself */
+  const tall = () => {
+    const left = HIGH - (document.querySelector(".origin")?.scrollHeight ?? 0);
+    return left < LOW ? HIGH : left;
+  };
   window.addEventListener("beforeprint", () => {
     const plot = stage._fullLayout?.scene?._scene?.glplot;
     if (!plot) return;
     const { clientWidth: w, clientHeight: h } = stage;
-    const sizes = { wide: w + "px", high: h + "px", fit: Math.min(WIDE / w, HIGH / h) };
+    const sizes = { wide: w + "px", high: h + "px", fit: Math.min(WIDE / w, tall() / h) };
     for (const name in sizes) stage.style.setProperty("--" + name, sizes[name]);
     plot.redraw();  /* its pixels last until this task ends */
     paper.width = plot.canvas.width;
