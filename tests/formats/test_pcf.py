@@ -703,7 +703,7 @@ def test_ten_thousand_ends_at_one_place_are_joined_quickly_or_refused(load):
 def test_options_of_a_pcf_mean_nothing_for_other_formats(tmp_path):
     path = tmp_path / "line.xml"
     path.write_text('<CAESARII VERSION="14.00" XML_TYPE="Input"/>')
-    with pytest.raises(DeckError, match="--anchor mean nothing for a CAESAR II input XML"):
+    with pytest.raises(DeckError, match="--anchor means nothing for a CAESAR II input XML"):
         read_any(path, options=Options(anchors=("10",)))
 
 

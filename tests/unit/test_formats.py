@@ -231,6 +231,7 @@ def test_what_is_no_text_is_refused(data, message):
 
 def test_text_of_windows_and_of_other_ends_of_lines_is_read():
     assert source_of(b"\xef\xbb\xbfA\r\nB\rC\x1a", "x").lines == ("A", "B", "C")
+    assert source_of(b"A\r\r\nB\r\r\n", "x").lines == ("A", "B")  # converted twice on its way
     source = source_of("Wärme".encode("cp1252"), "x")
     assert (source.lines, source.encoding) == (("Wärme",), "cp1252")
     assert source_of("Wärme".encode("utf-16"), "x").lines == ("Wärme",)

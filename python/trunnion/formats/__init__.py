@@ -72,7 +72,8 @@ def read_any(
     form = FORMATS[_suffix_of(source)]
     useless = [name for name in options.given() if name not in form.options]
     if useless:
-        text = f"{' and '.join(useless)} mean nothing for a {form.name}"
+        verb = "means" if len(useless) == 1 else "mean"
+        text = f"{' and '.join(useless)} {verb} nothing for a {form.name}"
         raise DeckError([Problem(Place(source.file, 1), text)])
     read: Callable[[Source, Findings], Imported] = import_module(form.module).read
     found = read(source, Findings(source, permissive=permissive, options=options))

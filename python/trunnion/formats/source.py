@@ -63,7 +63,7 @@ def source_of(data: bytes, file: str) -> Source:
     DeckError : control characters, or lines too long or too many.
     """
     text, encoding = _decode(data)
-    text = text.replace("\r\n", "\n").replace("\r", "\n").rstrip("\x1a\n")
+    text = text.replace("\r\r\n", "\n").replace("\r\n", "\n").replace("\r", "\n").rstrip("\x1a\n")
     bad = _CONTROL.search(text)
     if bad is not None:
         line = text.count("\n", 0, bad.start()) + 1
