@@ -4,6 +4,7 @@ import gc
 import os
 import subprocess
 import sys
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -99,6 +100,19 @@ def test_without_friction_there_is_no_friction_stage():
     assert {h["what"] for h in smooth["A"].history} == {"no friction"}
     assert "capacities" in {h["what"] for h in rough["A"].history}
     assert smooth.work["factorise"] < rough.work["factorise"]
+
+
+def test_the_history_counts_what_changed_since_the_iteration_before():
+    """Also where the law of friction becomes another one between two iterations."""
+    case = trunnion.solve(trunnion.read(ROOT / "models" / "hot_header.inp"))["OPE"]
+    contacts, sliders = case.system.contacts, case.system.sliders
+    found = [
+        len({*contacts.card[a.side != b.side].tolist(), *sliders.card[a.mode != b.mode].tolist()})
+        for a, b in pairwise(case.passes)
+    ]
+    assert [h["n_changed"] for h in case.history] == found
+    rubbing = [h["n_changed"] for h in case.history if h["what"] != "no friction"]
+    assert rubbing[0] >= 9  # every support that slides in the end began to rub there
 
 
 def test_iterations_are_those_of_the_history():

@@ -18,6 +18,7 @@ class History:
         self.records: list[dict[str, object]] = []
         self.passes: list[Pass] = []
         self.room = KEPT
+        self.last: Response | None = None  # after the iteration before
         self.jumps = 0  # Aitken jumps of the status iteration
         self.frozen: list[str] = []
         self.notes: list[str] = []  # warnings about how the case was solved
@@ -25,11 +26,18 @@ class History:
     def add(
         self, what: str, residual: float, step: float, before: Response, after: Response
     ) -> None:
-        """Note one pass; `residual` is that before it."""
+        """Note one pass; `residual` is that before it.
+
+        Changed is what has another state than after the pass before: where the law of friction
+        becomes another one (no friction, stick springs, given capacities), `before` follows the
+        new law already.
+        """
         contacts, sliders = self.system.contacts, self.system.sliders
         n, m = len(contacts.node), len(sliders.node)
-        turned = contacts.card[(before.side != after.side)[:n]].tolist()
-        switched = sliders.card[(before.mode != after.mode)[:m]].tolist()
+        old = before if self.last is None else self.last
+        self.last = after
+        turned = contacts.card[(old.side != after.side)[:n]].tolist()
+        switched = sliders.card[(old.mode != after.mode)[:m]].tolist()
         changed = sorted({*turned, *switched})
         self.ledger.add(iterations=1)
         self.ledger.watch.note(residual)
