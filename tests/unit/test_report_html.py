@@ -17,6 +17,7 @@ import trunnion
 from trunnion.arrays import SLIP, STICK, Pass
 from trunnion.certificate.scales import measure
 from trunnion.cli import main
+from trunnion.formats import read_any
 from trunnion.report import html
 from trunnion.report.html.story import Course, course, stories, words
 from trunnion.report.units import report_units
@@ -190,6 +191,22 @@ def test_sliders_that_alternate_are_told_with_their_reason(page, alike, end):
     assert "It went to and fro: stuck, it needs more friction than mu N; sliding, less." in said
     assert "20 +Y GUIDE" not in said
     assert said.endswith(f"mostly change in the same iterations{end}")
+
+
+def test_a_rest_that_lifts_off_a_support_whose_stop_holds_is_told():
+    """The card stays engaged by its stop; its rest and its stop have turns of their own."""
+    deck = Path(__file__).parents[2] / "models" / "foreign" / "skid_line_14.00.xml"
+    imported = read_any(deck)
+    results = trunnion.solve(imported.model)
+    told = stories(results, report_units(imported.model.units))
+    case = next(one for one in told if one["case"] == "OPE1")
+    said = {one["name"]: one["words"] for one in case["supports"]}
+    lifted = said["55 +Y GUIDE LIMIT"]
+    assert lifted.startswith("Engaged throughout: ")
+    assert "+Y opened at iteration " in lifted
+    assert case["note"].startswith(f"{len(said)} of 7 supports changed state")
+    names = {name for record in results["OPE1"].history for name in record["changed"]}
+    assert names == set(said)  # the bars of the chart count the supports that are told of
 
 
 def test_story_ends_in_the_states_of_the_answer(page):

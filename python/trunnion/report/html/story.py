@@ -12,6 +12,7 @@ from trunnion.frozen import frozen
 from trunnion.report.balance import Balance, balance
 from trunnion.report.causes import told_cause
 from trunnion.report.counts import counted
+from trunnion.report.html import directions
 from trunnion.report.units import ReportUnits
 from trunnion.results.supports import STATES, is_good
 
@@ -73,6 +74,8 @@ def _story(case: CaseResult, units: ReportUnits) -> dict[str, object]:
     found = course(case)
     changes = {i: _changes(found.level[:, i]) for i in range(found.level.shape[1])}
     restless = sorted((i for i in changes if changes[i]), key=lambda i: (-len(changes[i]), i))
+    turned = directions.turns(case)
+    restless += sorted(set(turned) - set(restless))  # only directions of theirs changed
     note = f"{len(restless)} of {counted(len(case.system.cards), 'support')} changed state"
     if kept < len(case.history):
         note += (
@@ -90,7 +93,9 @@ def _story(case: CaseResult, units: ReportUnits) -> dict[str, object]:
             {
                 "name": case.system.cards[i].name,
                 "axis": _axis(case.system, i),
-                "words": words(case.system, found, changes, i, units),
+                "words": words(case.system, found, changes, i, units)
+                if changes[i]
+                else directions.words(STATES[found.level[0, i]], turned[i]),
                 "rows": _rows(found, i, units),
             }
             for i in restless[:SUPPORTS]
