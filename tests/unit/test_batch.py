@@ -230,6 +230,24 @@ def test_options_go_to_the_files_that_have_a_use_for_them(decks, tmp_path):
     assert "2 of them finished before" in out
 
 
+def test_the_summary_names_files_that_lack_something_also_when_they_are_skipped(decks, tmp_path):
+    import pcf_lines
+
+    (tmp_path / "a.pcf").write_text(pcf_lines.everything())
+    more = ("-o", tmp_path / "out", "--anchor", "open-ends", "--permissive")
+    for skipped in (False, True):
+        code, out, _ = run(tmp_path / "a.pcf", decks[0], *more)
+        assert code == 0
+        assert ("1 of them" in out or "2 of them" in out) is skipped
+        told = out.split("\nLEFT OUT, ")[1].splitlines()[1:]
+        assert told[0].startswith("  a.pcf: FLANGE of line 13: wall of bore 100 is not in the file")
+        assert " more" in told[0]
+        assert told[1] == ""  # a deck lacks nothing
+    lacks = {e["stem"]: len(e["left_out"]) for e in summary(tmp_path / "out")["entries"]}
+    assert lacks["a"] >= 3
+    assert lacks["strut_three"] == 0
+
+
 def test_options_for_other_programs_mean_nothing_for_decks_alone(decks, tmp_path):
     code, out, err = run(*decks, "-o", tmp_path / "out", "--anchor", "open-ends")
     assert (code, out) == (2, "")

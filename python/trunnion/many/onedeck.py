@@ -2,6 +2,7 @@
 
 import traceback
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -81,7 +82,10 @@ def solve_model(model: Model, deck: Path, settings: Settings) -> tuple[Entry, di
     also: Any = settings["also"]
     files = report_files(results, model, Path(), deck.stem, also=also)
     reports = {path.as_posix(): content for path, content in files.items()}
-    return entry_of(results, report_units(model.units), deck, tuple(reports)), reports
+    entry = entry_of(results, report_units(model.units), deck, tuple(reports))
+    if model.origin is not None:
+        entry = replace(entry, left_out=tuple(map(str, model.origin.left_out)))
+    return entry, reports
 
 
 def write_deck(

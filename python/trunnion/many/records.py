@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from trunnion.formats.options import Options
 
 FOLDER = ".trunnion-batch"
-SCHEMA = 2
+SCHEMA = 3
 CERTIFIED, FAILED, BAD_DECK, INTERNAL = "certified", "failed", "bad deck", "internal error"
 CODES = {CERTIFIED: 0, FAILED: 1, BAD_DECK: 2, INTERNAL: 3}
 
@@ -41,6 +41,7 @@ class Entry:
 
     status : certified, failed (a case), bad deck (nothing written) or internal error.
     causes : of what is not certified, a sentence each.
+    left_out : of a foreign file and not in the model, a sentence each.
     files : names of the reports; of those in a folder of their own with that folder.
     skipped, notes : taken from the record of an earlier run; what happened on the way.  They are
         of one run, so the summary file has neither.
@@ -53,6 +54,7 @@ class Entry:
     warnings: int = 0
     causes: tuple[str, ...] = ()
     files: tuple[str, ...] = ()
+    left_out: tuple[str, ...] = ()
     skipped: bool = False
     notes: tuple[str, ...] = ()
 
@@ -141,6 +143,7 @@ def _entry(data: Mapping[str, Any]) -> Entry:
             "cases": tuple(CaseLine(**line) for line in data["cases"]),
             "causes": tuple(data["causes"]),
             "files": tuple(data["files"]),
+            "left_out": tuple(data["left_out"]),
             "skipped": True,
         }
     )

@@ -62,6 +62,11 @@ def summary_screen(entries: Sequence[Entry], room: Room = PIPE) -> str:
     notes = [f"{e.deck}: {note}" for e in entries for note in e.notes]
     if notes:
         text += "\nNOTES\n" + _lines(notes, room)
+    lacking = [_lacks(e) for e in entries if e.left_out]
+    if lacking:
+        text += "\nLEFT OUT, the first of each; all of it is on top of the reports\n" + _lines(
+            lacking, room
+        )
     failures = [e for e in entries if e.code]
     if failures:
         text += "\nFAILURES\n" + "".join(_failure(entry, room) for entry in failures)
@@ -84,6 +89,11 @@ def _statuses(entries: Sequence[Entry]) -> list[str]:
 
 def _note(entry: Entry) -> str:
     return "finished before" if entry.skipped else "see below" if entry.notes else ""
+
+
+def _lacks(entry: Entry) -> str:
+    more = f" ... and {len(entry.left_out) - 1} more" if len(entry.left_out) > 1 else ""
+    return f"{entry.deck}: {entry.left_out[0]}{more}"
 
 
 def _failure(entry: Entry, room: Room) -> str:
