@@ -22,7 +22,7 @@ from trunnion.exports.calculix.model import shear_coefficient
 from trunnion.exports.hinges import MOST, chain, flexibility, hinge_count
 from trunnion.exports.refusals import ExportError
 from trunnion.exports.scene import stand
-from trunnion.origin import LeftOut, Origin
+from trunnion.origin import Assumption, LeftOut, Origin
 from trunnion.results.balance import load_sum
 from trunnion.system import build_system
 
@@ -343,10 +343,16 @@ def test_chosen_cases_alone_are_written(tmp_path, capsys):
 def test_what_a_foreign_file_lost_is_said_again():
     model = trunnion.read(ROOT / "models/pipe_10m.inp")
     lost = LeftOut("element 30-40", "a nozzle", "line.cii:210")
-    model.origin = Origin("line.cii", "CAESAR II neutral file, version 11.0", (lost,))
+    guess = Assumption("steel is cold at 21 C", "line.cii:7")
+    model.origin = Origin("line.cii", "CAESAR II neutral file, version 11.0", (lost,), (guess,))
     job = build_job(model, trunnion.solve(model))
-    assert job.notes == ("LEFT OUT: element 30-40: a nozzle (line.cii:210)",)
-    assert "LEFT OUT: element 30-40" in files(job, "calculix", "x")["x_calculix.inp"].decode()
+    assert job.notes == (
+        "LEFT OUT: element 30-40: a nozzle (line.cii:210)",
+        "assumed: steel is cold at 21 C (line.cii:7)",
+    )
+    text = files(job, "calculix", "x")["x_calculix.inp"].decode()
+    assert "LEFT OUT: element 30-40" in text
+    assert "assumed: steel is cold" in text
 
 
 # ------------------------------------------------------------------ comparison

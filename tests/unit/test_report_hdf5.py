@@ -11,6 +11,7 @@ import trunnion
 
 h5py = pytest.importorskip("h5py")
 
+from trunnion.origin import Assumption, LeftOut, Origin  # noqa: E402
 from trunnion.report.hdf5 import hdf5_report  # noqa: E402
 
 ROOT = Path(__file__).parents[2]
@@ -41,6 +42,14 @@ def test_a_case_that_did_not_converge_has_no_numbers(file):
     assert case.attrs["cause"] == "friction cycles at 30 +Y"
     assert "state" not in case
     assert "support_force" not in case
+
+
+def test_what_a_foreign_file_lost_is_said_in_it(results):
+    lost = LeftOut("node 30", "a clamp is left out", "line.cii:12")
+    origin = Origin("line.cii", "CAESAR II neutral file", (lost,), (Assumption("cold at 21 C"),))
+    with h5py.File(BytesIO(hdf5_report(results, origin)), "r") as file:
+        assert list(file["left_out"].asstr()[:]) == ["node 30: a clamp is left out (line.cii:12)"]
+        assert list(file["assumed"].asstr()[:]) == ["cold at 21 C"]
 
 
 @pytest.mark.parametrize("deck", ["wind_crossing", "snubber_line", "cycle_line", "nr1677_v2_p1"])

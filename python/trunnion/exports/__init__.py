@@ -16,6 +16,7 @@ from trunnion.exports.refusals import ExportError, chosen_cases
 from trunnion.exports.scene import Scene, build_scene, stand
 from trunnion.frozen import frozen
 from trunnion.model import Case, Model
+from trunnion.origin import origin_lines
 
 FORMATS: Mapping[str, str] = {
     "opensees": "trunnion.exports.opensees",
@@ -91,7 +92,7 @@ def _moduli(model: Model, system: System) -> tuple[F8, F8]:
 
 def _notes(model: Model, scene: Scene) -> list[str]:
     """What a reader must know of the cases."""
-    notes = [] if model.origin is None else [f"LEFT OUT: {x}" for x in model.origin.left_out]
+    notes = [] if model.origin is None else origin_lines(model.origin)[1:]
     for case in scene.cases:
         found = stand(case)
         modes = [rub.mode for rub in found.rubs]

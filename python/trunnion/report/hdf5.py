@@ -12,6 +12,7 @@ import numpy as np
 
 from trunnion.arrays import CaseResult, CycleResult, ModeSet, Results, System
 from trunnion.model import Model
+from trunnion.origin import Origin
 from trunnion.report.loops import step_names
 from trunnion.results.balance import local_end_forces
 from trunnion.results.stresses import end_stresses
@@ -35,11 +36,16 @@ SCHEMA = 1
 
 def files(results: Results, model: Model, stem: str) -> dict[str, bytes]:
     """Write the file; all that it holds of the model stands in the results."""
-    return {f"{stem}.h5": hdf5_report(results)}
+    return {f"{stem}.h5": hdf5_report(results, model.origin)}
 
 
-def hdf5_report(results: Results) -> bytes:
-    """Write the whole file."""
+def hdf5_report(results: Results, origin: Origin | None = None) -> bytes:
+    """Write the whole file.
+
+    Parameters
+    ----------
+    origin : the foreign file that the model came from, and what of it is not in the numbers.
+    """
     import h5py
 
     stream = BytesIO()
@@ -48,6 +54,9 @@ def hdf5_report(results: Results) -> bytes:
         file.attrs["title"] = results.title
         _words(file, "case_names", list(results.cases))
         _words(file, "warnings", results.warnings)
+        if origin is not None:
+            _words(file, "left_out", [str(entry) for entry in origin.left_out])
+            _words(file, "assumed", [str(entry) for entry in origin.assumed])
         _model(file.create_group("model"), results.system)
         cases = file.create_group("cases")
         for name, case in results.cases.items():
