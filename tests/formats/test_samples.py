@@ -120,6 +120,22 @@ def test_the_skid_line_has_what_its_file_says(name):
     assert len(model.springs) == ("14" in name)
 
 
+def test_the_pump_line_has_what_its_file_says():
+    result = imported("pump_line.pcf")
+    model = result.model
+    assert not any("bores" in str(text) for text in result.model.origin.assumed)  # UNITS-BORE INCH
+    assert [b.radius for b in model.bends] == pytest.approx([0.762, 0.762], rel=1e-5)
+    (reducer,) = (p for p in model.pipes if p.reducer)
+    assert (reducer.section, reducer.reducer.section) == ("6IN-40", "4IN-40")
+    assert reducer.reducer.axis == (1.0, 0.0, 0.0)
+    assert reducer.delta == pytest.approx((0.14, 0.0, 0.027))
+    anchors = [s.node for s in model.supports if s.kind == "anchor"]
+    assert len(anchors) == 2  # the open end and the pump
+    rests = [s for s in model.supports if any(d.word == "+Z" for d in s.directions)]
+    assert [s.name for s in rests][1:] == ["PS-11", "PS-12"]
+    assert [d.word for d in rests[2].directions] == ["+Z", "Y"]
+
+
 def test_default_cases_are_those_that_the_program_proposes():
     """W+P1+H+F1 sustained; each temperature with its pressure and movements; ranges to SUS."""
     cases = cases_of(imported("hot_line_11.cii").model)

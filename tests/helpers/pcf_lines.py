@@ -114,6 +114,52 @@ def everything():
     )
 
 
+def pump_line():
+    """A suction line to a pump: what `everything` has not, with bores in inches.
+
+    6 in PIPE along E at U = 1500, BEND of 45 degrees (R 762), PIPE, BEND back, PIPE on two rests,
+    REDUCER-ECCENTRIC flat on top to 4 in, PIPE, FLANGE on the pump; a description is continued.
+    """
+    z, tangent = 1500.0, 762.0 * (2.0**0.5 - 1.0)
+    d = tangent / 2.0**0.5  # of a tangent along both axes
+    x = 2000.0 + tangent
+    far = (x + d + 1000.0, d + 1000.0)  # start of the second bend
+    y = far[1] + d
+    end = far[0] + d + tangent  # of the second bend
+    top = z + (168.3 - 114.3) / 2.0
+    return HEADER.replace("UNITS-BORE MM", "UNITS-BORE INCH") + "".join(
+        (
+            pipe((0, 0, z), (2000, 0, z), 6.0, ITEM_CODE="P6"),
+            block("BEND", (2000, 0, z), (x + d, d, z), centre=(x, 0, z), bore=6.0, SKEY="BEBW"),
+            pipe((x + d, d, z), (*far, z), 6.0),
+            block(
+                "BEND",
+                *((*far, z), (end, y, z)),
+                centre=(far[0] + d, y, z),
+                bore=6.0,
+                BEND_RADIUS="762.0",
+            ),
+            pipe((end, y, z), (end + 4000, y, z), 6.0),
+            block(
+                "REDUCER-ECCENTRIC",
+                *(((end + 4000, y, z), 6.0), ((end + 4140, y, top), 4.0)),
+                SKEY="REBW",
+                FLAT_DIRECTION="UP",
+            ),
+            pipe((end + 4140, y, top), (end + 4700, y, top), 4.0),
+            block("FLANGE", (end + 4700, y, top), (end + 4776, y, top), bore=4.0, WEIGHT="7.3"),
+            f"END-CONNECTION-EQUIPMENT\n{point('CO-ORDS', (end + 4776, y, top))}\n"
+            "    CONNECTION-REFERENCE P-102/SUCTION\n",
+            support((1500, 0, z), "SKID", "DOWN"),
+            support((end + 500, y, z), "SKID", "DOWN", "PS-11"),
+            support((end + 3500, y, z), "SKID", "DOWN", "PS-12"),
+            support((end + 3500, y, z), "GUID", "NORTH"),
+            "MATERIALS\nITEM-CODE P6\n    DESCRIPTION Pipe seamless, plain ends, hot finished,\n"
+            "    CONTINUATION 168.3x7.11mm\n",
+        )
+    )
+
+
 TABLE = """\
 mu = 0.3
 [defaults]

@@ -128,6 +128,7 @@ def files():
         for version in XML_VERSIONS
     }
     found["plant_line.pcf"] = pl.everything().replace("\n", "\r\n").encode()
+    found["pump_line.pcf"] = pl.pump_line().encode()
     found["plant_line.toml"] = pl.TABLE.encode()
     return found
 

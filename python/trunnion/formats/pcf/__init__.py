@@ -195,7 +195,7 @@ def _without_length(
 
 def _report_bores(net: Network, forms: Sequence[Form], bores: Bores, findings: Findings) -> None:
     """Report bores that differ where ends meet, and sizes written in another way."""
-    if bores.inches:
+    if bores.inches and bores.guessed:
         findings.assume(f"bores are written as {bores.way}")
     for bore, way in bores.others:
         findings.assume(f"bore {bore:g} is no {bores.way}; read as {way}")

@@ -27,6 +27,7 @@ class Bores:
     way: str
     inches: Mapping[float, float | None]
     others: tuple[tuple[float, str], ...]  # sizes that fit another way only
+    guessed: bool = True  # the way follows from the sizes, not from UNITS-BORE
 
 
 def decide(bores: Iterable[float], unit: str) -> Bores:
@@ -42,7 +43,7 @@ def decide(bores: Iterable[float], unit: str) -> Bores:
         divisor = 16.0 if unit == "SIXTEENTH" else 1.0
         table = _table("inches")
         found = {b: _nearest(table, b / divisor * 25.4, 0.5) for b in sizes}
-        return Bores("inches", found, ())
+        return Bores("inches", found, (), guessed=False)
     fits = {way: [b for b in sizes if _size(way, b) is not None] for way in WAYS}
     way = max(WAYS, key=lambda w: (len(fits[w]), -WAYS.index(w)))
     inches: dict[float, float | None] = {}
