@@ -67,3 +67,18 @@ def requests(driver):
     return [
         m["params"]["request"]["url"] for m in sent if m["method"] == "Network.requestWillBeSent"
     ]
+
+
+@contextmanager
+def window(driver, width, height):
+    """Draw a page of a case's movements in a window of this size, and again in the usual one."""
+    size = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False}
+    driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
+    try:
+        driver.refresh()
+        until_drawn(driver, "OPE move")
+        yield
+    finally:
+        driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+        driver.refresh()
+        until_drawn(driver, "OPE move")

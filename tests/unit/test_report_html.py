@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from pagebrowser import choose, chromium, opened, picture, requests, until_drawn
+from pagebrowser import choose, chromium, opened, picture, requests, until_drawn, window
 from program import leave
 
 import trunnion
@@ -442,11 +442,7 @@ def coloured(image):
 def test_paper_shows_the_model_as_it_is_seen(parts_browser, tmp_path, wide):
     """In the middle of the page: colour bar and legend, no canvas, stand beside and above."""
     browser = parts_browser
-    size = {"width": wide, "height": 900, "deviceScaleFactor": 1, "mobile": False}
-    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
-    try:
-        browser.refresh()
-        until_drawn(browser, "OPE move")
+    with window(browser, wide, 900):
         choose(browser, "colour", "bending")
         until_drawn(browser, "OPE bending")
         first = printed(browser, tmp_path)
@@ -454,8 +450,6 @@ def test_paper_shows_the_model_as_it_is_seen(parts_browser, tmp_path, wide):
         until_drawn(browser, "OPE move")
         second = printed(browser, tmp_path)
         left = browser.execute_script("return document.querySelectorAll('canvas').length")
-    finally:
-        browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
     high, across = first.shape[:2]
     middle = np.s_[int(0.3 * high) : int(0.85 * high), int(0.2 * across) : int(0.8 * across)]
     for page in (first, second):
@@ -481,19 +475,13 @@ def test_the_first_sheet_of_a_foreign_file_has_its_model_too(sample, tmp_path):
 
 def test_the_picture_ends_where_the_window_of_a_laptop_does(parts_browser):
     browser = parts_browser
-    size = {"width": 1366, "height": 657, "deviceScaleFactor": 1, "mobile": False}
-    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
-    try:
-        browser.refresh()
-        until_drawn(browser, "OPE move")
+    with window(browser, 1366, 657):
         ends = browser.execute_script(
             """
             window.scrollTo(0, 0);
             return ['.stage', '#scene', '#scene .colorbar'].map((s) =>
                 document.querySelector(s).getBoundingClientRect().bottom);"""
         )
-    finally:
-        browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
     assert max(ends) <= 657
     assert ends[1] > 600
 
@@ -598,11 +586,7 @@ def test_the_whole_outline_stands_in_the_middle_and_in_sight(parts_browser):
 def test_nothing_is_cut_off_however_wide_and_near(parts_browser, zoom):
     """Between the planes before and behind, as the wheel zooms: by the aspect ratio."""
     browser = parts_browser
-    size = {"width": 2200, "height": 657, "deviceScaleFactor": 1, "mobile": False}
-    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
-    try:
-        browser.refresh()
-        until_drawn(browser, "OPE move")
+    with window(browser, 2200, 657):
         browser.execute_async_script(
             """
             const stage = document.getElementById('scene'), done = arguments[1];
@@ -624,10 +608,6 @@ def test_nothing_is_cut_off_however_wide_and_near(parts_browser, zoom):
             return [[Math.min(...depth), Math.max(...depth)], scene.camera.translateSpeed *
                 Math.hypot(eye.x - center.x, eye.y - center.y, eye.z - center.z)];"""
         )
-    finally:
-        browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
-        browser.refresh()
-        until_drawn(browser, "OPE move")
     assert -1.0 < depth[0] < depth[1] < 1.0
     assert speed == pytest.approx(2.0)  # the height of the picture is 2: it follows the mouse
 

@@ -7,13 +7,14 @@ import click
 
 from trunnion.commands.shared import (
     FOLDER,
-    FOREIGN,
     INTERRUPTED,
     JOBS,
     PERMISSIVE,
     InputError,
     beside,
     further_options,
+    is_foreign,
+    not_foreign,
     refuse_missing,
     refuse_unwritable,
     room,
@@ -61,10 +62,10 @@ def batch(
     also = [name for name, wanted in further.items() if wanted]
     refuse_missing(also)
     _need_dask(scheduler)
-    if (options is not None or permissive) and not any(d.suffix.lower() in FOREIGN for d in decks):
+    if (options is not None or permissive) and not any(map(is_foreign, decks)):
         given = [] if options is None else options.given()
         words = " and ".join([*given, *["--permissive"] * permissive])
-        raise InputError(f"{words} is for files of other programs ({' '.join(FOREIGN)})")
+        raise not_foreign(words)
     with progress("decks", len(decks)) as counter:
 
         def told(entry: Entry) -> None:

@@ -9,12 +9,12 @@ from trunnion.commands.export import CASES, PROGRAMS, exported
 from trunnion.commands.shared import (
     DECK,
     FAILED,
-    FOREIGN,
     PERMISSIVE,
     SOLVED,
     InputError,
     beside,
     is_foreign,
+    not_foreign,
     refuse_unwritable,
     say,
 )
@@ -70,7 +70,7 @@ def confirm(
     if folder is not None:
         refuse_unwritable(folder)
     if permissive and not is_foreign(deck):
-        raise InputError(f"--permissive is for files of other programs ({' '.join(FOREIGN)})")
+        raise not_foreign("--permissive")
     with shown(f"reading {deck.name}") as watch, TemporaryDirectory() as scratch:
         model, results, job = exported(
             deck,

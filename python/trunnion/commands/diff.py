@@ -67,11 +67,9 @@ def _compare(a: Path, b: Path, tolerance: float | None) -> "list[Change]":
     if kinds[0] != kinds[1]:
         raise InputError("a deck and a result cannot be compared: give two of a kind")
     if kinds[0]:
-        from trunnion.compare.results import diff_results
-        from trunnion.compare.stored import read_report
+        from trunnion.compare.results import diff_reports
 
-        near = 1e-9 if tolerance is None else tolerance
-        return diff_results(read_report(a), read_report(b), near)
+        return diff_reports(a, b, tolerance)
     from trunnion.compare.decks import diff_decks
 
     return diff_decks(read_model(a), read_model(b), tolerance or 0.0)

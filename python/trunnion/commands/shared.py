@@ -96,11 +96,16 @@ def beside(command: Callable[..., int]) -> Callable[..., int]:
     return with_options
 
 
+def not_foreign(words: str) -> InputError:
+    """Say that options are for files of other programs."""
+    return InputError(f"{words} is for files of other programs ({' '.join(FOREIGN)})")
+
+
 def read_model(
     deck: Path, *, permissive: bool = False, options: "Options | None" = None
 ) -> "Model":
     """Read the input file of a command: a deck, or a file of another program by its suffix."""
-    if deck.suffix.lower() in FOREIGN:
+    if is_foreign(deck):
         from trunnion.formats import read_any
         from trunnion.formats.options import NONE
 
@@ -108,7 +113,7 @@ def read_model(
     if options is not None:
         raise InputError("--table, --tolerance and --anchor are for files of other programs")
     if permissive:
-        raise InputError(f"--permissive is for files of other programs ({' '.join(FOREIGN)})")
+        raise not_foreign("--permissive")
     from trunnion.deck.reader import read
 
     return read(deck)

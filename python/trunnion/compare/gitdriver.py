@@ -62,11 +62,9 @@ def _changes(
     old: Path, path: Path, new: Path, renamed: Path, tolerance: float | None
 ) -> "list[Change]":
     if path.suffix.lower() == ".json" and renamed.suffix.lower() == ".json":
-        from trunnion.compare.results import diff_results
-        from trunnion.compare.stored import read_report
+        from trunnion.compare.results import diff_reports
 
-        near = 1e-9 if tolerance is None else tolerance
-        return diff_results(read_report(old), read_report(new), near)
+        return diff_reports(old, new, tolerance)
     return diff_decks(_model(old, path), _model(new, renamed), tolerance or 0.0)
 
 

@@ -24,9 +24,6 @@ from trunnion.solver.structure import Structure
 if TYPE_CHECKING:
     from trunnion.cases.analysis import Run
 
-#: what reading tables raises that are those of another deck, or none at all
-SHAPE = (KeyError, IndexError, TypeError, ValueError, AttributeError)
-
 
 @frozen
 class Verdict:

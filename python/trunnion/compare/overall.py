@@ -12,12 +12,11 @@ from trunnion.compare.numbers import (
     changed_numbers,
     numbers_of,
 )
+from trunnion.compare.stored import SHAPE
 from trunnion.errors import ModelError, Problem
 
 SIX = (*FORCES, *MOMENTS)
 RANGES = ("range", "one_shot")  # ratio is theirs
-#: what tables raise that the program did not write
-SHAPE = (KeyError, IndexError, TypeError, ValueError, AttributeError)
 Report = Mapping[str, Any]
 
 

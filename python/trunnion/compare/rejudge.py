@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING, Any
 
 from trunnion.arrays import CaseResult, FrozenBreak, HangerChoice
 from trunnion.compare.claims import false_claim, false_members
-from trunnion.compare.judgement import SHAPE, Verdict, has_numbers, judged, start_of
+from trunnion.compare.judgement import Verdict, has_numbers, judged, start_of
+from trunnion.compare.stored import SHAPE
 from trunnion.compare.written import changed
 from trunnion.model import Case, Comb, Model
 from trunnion.results.combine import combine, parents

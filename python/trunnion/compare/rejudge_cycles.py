@@ -8,7 +8,8 @@ import numpy as np
 
 from trunnion.arrays import CaseResult, CycleResult, Results
 from trunnion.cases.cycles import REPEATED, change_between, set_ranges
-from trunnion.compare.judgement import SHAPE, Verdict, judged, start_of
+from trunnion.compare.judgement import Verdict, judged, start_of
+from trunnion.compare.stored import SHAPE
 from trunnion.compare.written import differing
 from trunnion.model import Case, Cycle
 from trunnion.report.counts import counted

@@ -16,8 +16,9 @@ import numpy as np
 from trunnion.arrays import F8, CaseResult, ModeSet, System, sizes
 from trunnion.cases.dynamics import Dynamics
 from trunnion.compare.claims import false_claim
-from trunnion.compare.judgement import SHAPE, Verdict, has_numbers
+from trunnion.compare.judgement import Verdict, has_numbers
 from trunnion.compare.restored import moved
+from trunnion.compare.stored import SHAPE
 from trunnion.compare.written import far, written
 from trunnion.errors import ModelError
 from trunnion.frozen import frozen

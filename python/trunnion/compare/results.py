@@ -1,11 +1,20 @@
 """Two results: what changed, in shares of the largest of its kind in the case."""
 
 from collections.abc import Iterator, Mapping
+from pathlib import Path
 from typing import Any
 
 from trunnion.compare.change import Change, by_importance
 from trunnion.compare.numbers import came, changed_numbers, numbers_of, share, shown
 from trunnion.compare.overall import changed_cycles, changed_envelope
+from trunnion.compare.stored import read_report
+
+NEAR = 1e-9  # of the largest of its kind
+
+
+def diff_reports(a: Path, b: Path, tolerance: float | None) -> list[Change]:
+    """Read two JSON reports and compare them, to `NEAR` where nothing else is said."""
+    return diff_results(read_report(a), read_report(b), NEAR if tolerance is None else tolerance)
 
 
 def diff_results(a: Mapping[str, Any], b: Mapping[str, Any], tolerance: float) -> list[Change]:

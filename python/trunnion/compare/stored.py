@@ -12,6 +12,8 @@ Report = dict[str, Any]
 MAX_BYTES = 4_000_000_000
 LARGEST = sys.float_info.max  # 1e999 is read as infinity
 TABLES = ("nodes", "supports", "elements")  # of a case with numbers
+#: what reading tables raises that are those of another deck, or none at all
+SHAPE = (KeyError, IndexError, TypeError, ValueError, AttributeError)
 VECTORS = {"supports": ("force", "moment"), "elements": ("force_from", "force_to")}
 
 

@@ -2,6 +2,7 @@
 
 from trunnion.arrays import CaseResult, FrozenBreak
 from trunnion.report.columns import Column, section, table, words, wrapped
+from trunnion.report.counts import counted
 from trunnion.report.units import ReportUnits
 
 MEANING = {"pulls": "closed, would have to pull", "closes": "open, moved beyond its gap"}
@@ -15,7 +16,7 @@ def frozen_table(case: CaseResult, units: ReportUnits) -> str:
     found = sorted(case.frozen_check, key=lambda b: (b.what, -b.amount, b.card))
     cards = [case.system.cards[b.card] for b in found]
     shown = [_amount(b, units) for b in found]
-    count = f"{len(found)} support direction{'s' if len(found) > 1 else ''}"
+    count = counted(len(found), "support direction")
     text += wrapped(
         f"does not hold at {count}: there this linear case is not the answer of the real supports"
     )

@@ -8,6 +8,7 @@ from trunnion.arrays import F8, CycleResult, Results
 from trunnion.report.answers import largest
 from trunnion.report.causes import in_units
 from trunnion.report.columns import Column, headings, numbers, section, words, wrapped
+from trunnion.report.counts import counted
 from trunnion.report.units import ReportUnits
 from trunnion.results.supports import card_loads, range_ratio
 
@@ -27,7 +28,7 @@ def verdict(cycle: CycleResult, units: ReportUnits) -> str:
     """Say whether the loop repeats."""
     if cycle.cause:
         return f"not followed to its end: {in_units(cycle.cause, units)}"
-    loops = f"{cycle.loops} loop{'s' if cycle.loops != 1 else ''} followed"
+    loops = f"{counted(cycle.loops, 'loop')} followed"
     if not np.isfinite(cycle.change):
         return f"{loops}: only from the second on can a loop be seen to repeat"
     word = "the loop repeats" if cycle.repeats else "the loop does not repeat"

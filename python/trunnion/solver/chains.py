@@ -89,14 +89,9 @@ def _flexibilities(s: System, joins: B1) -> F8:
 
 def at_kept_nodes(system: System, chains: Chains) -> tuple[Contacts, Sliders, Contacts]:
     """Contacts, sliders and snubbers with the numbers of the kept nodes."""
-    contacts, sliders, snubbers, place = (
-        system.contacts,
-        system.sliders,
-        system.snubbers,
-        chains.place,
-    )
+    place, c, s, b = chains.place, system.contacts, system.sliders, system.snubbers
     return (
-        replace(contacts, node=place[contacts.node], cnode=place[contacts.cnode]),
-        replace(sliders, node=place[sliders.node], cnode=place[sliders.cnode]),
-        replace(snubbers, node=place[snubbers.node], cnode=place[snubbers.cnode]),
+        replace(c, node=place[c.node], cnode=place[c.cnode]),
+        replace(s, node=place[s.node], cnode=place[s.cnode]),
+        replace(b, node=place[b.node], cnode=place[b.cnode]),
     )
